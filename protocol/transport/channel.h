@@ -1,0 +1,54 @@
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "protocol/base/error.h"
+#include "protocol/message/message.h"
+
+namespace macula {
+
+/// One authenticated, encrypted, ordered stream of whole messages to one peer. Made so that a datagram media
+/// plane can join behind it without touching its users. One thread may receive while another sends; close()
+/// may be called from any thread.
+class Channel {
+public:
+    Channel() = default;
+    Channel(const Channel&) = delete;
+    Channel& operator=(const Channel&) = delete;
+    virtual ~Channel() = default;
+
+    /// Next message body. Errors: `timeout` (nothing arrived; the channel stays usable only if no byte of a
+    /// message had arrived yet), `protocol` (oversized length), `network` (closed or broken).
+    virtual Expected<Bytes> receive(std::chrono::milliseconds timeout) = 0;
+
+    /// Sends one message body. Errors: `timeout` (the peer does not read; the channel is then closed),
+    /// `network`.
+    virtual Expected<void> send(std::span<const std::byte> body, std::chrono::milliseconds timeout) = 0;
+
+    /// Ends the channel; pending and later calls fail with `network`.
+    virtual void close() noexcept = 0;
+
+    /// "address:port" of the peer, for logs.
+    [[nodiscard]] virtual std::string peer() const = 0;
+};
+
+/// Accepts channels on a port. A peer that is slow or malformed in the handshake holds up nobody else.
+class Listener {
+public:
+    Listener() = default;
+    Listener(const Listener&) = delete;
+    Listener& operator=(const Listener&) = delete;
+    virtual ~Listener() = default;
+
+    /// Next channel whose handshake is complete; `timeout` if there was none, `network` after close().
+    virtual Expected<std::unique_ptr<Channel>> accept(std::chrono::milliseconds timeout) = 0;
+    virtual void close() noexcept = 0;
+    [[nodiscard]] virtual std::uint16_t port() const = 0;
+};
+
+}  // namespace macula
