@@ -18,8 +18,12 @@ struct RankTile {
     [[nodiscard]] std::uint8_t at(int x, int y) const { return rank[static_cast<std::size_t>(y * kEdge_px + x)]; }
 };
 
+/// Of the seeds 1..24 the one whose sites have the flattest spectrum: over all levels, the structure factor peaks
+/// at 11.1 (others 11.4..16.2; a plain 16x16 tile 148).
+inline constexpr std::uint32_t kRankTileSeed = 18;
+
 /// Makes the tile by void-and-cluster (Ulichney 1993) with the cells served in rounds. Deterministic for a seed
 /// on one machine; between machines the tile itself travels (Welcome), never the seed.
-RankTile make_rank_tile(std::uint32_t seed = 1);
+RankTile make_rank_tile(std::uint32_t seed = kRankTileSeed);
 
 }  // namespace macula
