@@ -62,7 +62,7 @@ struct Welcome {
 /// Server -> client, answer to a Hello that cannot be served. The connection closes after it.
 struct Refused {
     std::uint32_t protocol_version = kProtocolVersion;
-    std::string reason;  ///< what to do, for a person
+    std::string reason;  ///< what to do, for a person; one line
 };
 
 /// Where one eye looks: unit vector in head space; confidence 0 (lost) .. 1.
@@ -146,11 +146,13 @@ struct Bye {
 
 using Message = std::variant<Hello, Welcome, Refused, Track, Frame, FrameReport, Ping, Pong, Bye>;
 
-/// Serialises a message; the result is the body that a Channel frames.
+/// Serialises a message; the result is the body that a Channel frames. Nothing is validated: a message outside
+/// the limits is refused by whoever decodes it.
 Bytes encode_message(const Message& message);
 
-/// Parses and validates a body: schema verification, then ranges (finite numbers, unit vectors and
-/// quaternions within 1e-3 and renormalised, sizes and counts in the documented limits, levels in range).
+/// Parses and validates a body: schema verification, then ranges (limits.h: finite numbers, unit vectors and
+/// quaternions within 1e-3 and renormalised, sizes and counts, levels, texts of one line). Of a Hello of another
+/// protocol version only the version and the client's name are validated, so that it can be refused by name.
 /// Errors have code `protocol` and name the field.
 Expected<Message> decode_message(std::span<const std::byte> body);
 
