@@ -1,29 +1,28 @@
 #pragma once
 
-// The prelude that lets one kernel text be C++ and GLSL 4.5. A kernel file is a header whose body, between
-// KERNEL_BEGIN and KERNEL_END, uses only what both languages share: structs without initialisers or members,
-// free functions, vectors and matrices with explicit constructors, .x .y .z .w (no swizzles), float literals
-// with an F suffix, explicit conversions. Buffers are read through accessor functions that each side supplies
-// before it includes the kernel. For GLSL, protocol/gl/kernel_text.cmake strips preprocessor lines and embeds
-// the text; kernel_prelude.glsl defines the same macros.
+// The C++ side of the language that kernels are written in, so that one text is C++ and GLSL (KERNELS.md has
+// the rules). kernel_prelude.glsl is the GLSL side.
 
-#include <algorithm>
 #include <bit>
-#include <cmath>
 #include <cstdint>
 
 #include <glm/common.hpp>
+#include <glm/exponential.hpp>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/packing.hpp>
+#include <glm/trigonometric.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
 #define KERNEL_BEGIN namespace macula::kernels {
 #define KERNEL_END }
-/// Marks every kernel function.
-#define KERNEL inline
-/// Parameters that the function writes, or reads and writes.
+/// Marks every kernel function. Static, because each source file may supply other accessor functions.
+#define KERNEL static inline
+/// Parameters that are costly to copy, that the function writes, or that it reads and writes.
+#define KERNEL_IN(type) const type&
 #define KERNEL_OUT(type) type&
 #define KERNEL_INOUT(type) type&
 
@@ -33,6 +32,7 @@ using glm::ivec2;
 using glm::ivec3;
 using glm::ivec4;
 using glm::mat3;
+using glm::mat4;
 using glm::uvec2;
 using glm::uvec3;
 using glm::uvec4;
@@ -41,22 +41,39 @@ using glm::vec3;
 using glm::vec4;
 using uint = std::uint32_t;
 
+using glm::abs;
+using glm::acos;
+using glm::atan;
+using glm::ceil;
 using glm::clamp;
+using glm::cos;
 using glm::cross;
+using glm::distance;
 using glm::dot;
+using glm::exp;
+using glm::exp2;
 using glm::floor;
+using glm::fract;
+using glm::inversesqrt;
 using glm::length;
+using glm::log;
+using glm::log2;
 using glm::max;
 using glm::min;
 using glm::mix;
+using glm::mod;
 using glm::normalize;
-using std::abs;
-using std::cos;
-using std::exp;
-using std::log;
-using std::pow;
-using std::sin;
-using std::sqrt;
+using glm::packUnorm4x8;
+using glm::pow;
+using glm::reflect;
+using glm::round;
+using glm::sign;
+using glm::sin;
+using glm::smoothstep;
+using glm::sqrt;
+using glm::step;
+using glm::tan;
+using glm::unpackUnorm4x8;
 
 inline uint floatBitsToUint(float value) {
     return std::bit_cast<uint>(value);

@@ -1,0 +1,75 @@
+#include "protocol/gl/buffer.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "protocol/gl/functions.h"
+
+namespace macula {
+
+namespace {
+
+Expected<void> check_errors(const GlFunctions& gl) {
+    const GLenum error = gl.GetError();
+    if (error == GL_NO_ERROR) return {};
+    if (error == GL_OUT_OF_MEMORY) return fail(ErrorCode::graphics, "GL is out of memory");
+    return fail(ErrorCode::graphics, "GL failed with error " + std::to_string(error));
+}
+
+}  // namespace
+
+GlBuffer::GlBuffer(GlBuffer&& other) noexcept
+    : context_(other.context_),
+      id_(std::exchange(other.id_, 0U)),
+      capacity_bytes_(std::exchange(other.capacity_bytes_, 0U)) {}
+
+GlBuffer& GlBuffer::operator=(GlBuffer&& other) noexcept {
+    std::swap(context_, other.context_);
+    std::swap(id_, other.id_);
+    std::swap(capacity_bytes_, other.capacity_bytes_);
+    return *this;
+}
+
+GlBuffer::~GlBuffer() {
+    if (id_ == 0) return;
+    if (const auto current = CurrentContext::enter(*context_)) context_->gl().DeleteBuffers(1, &id_);
+}
+
+void GlBuffer::write_bytes(const void* data, std::size_t size_bytes) {
+    const GlFunctions& gl = context_->gl();
+    if (id_ == 0) gl.GenBuffers(1, &id_);
+    gl.BindBuffer(GL_SHADER_STORAGE_BUFFER, id_);
+    if (size_bytes > capacity_bytes_ || capacity_bytes_ == 0) {
+        // GL knows no empty storage, and a plan's size changes a little from frame to frame.
+        capacity_bytes_ = std::max<std::size_t>(size_bytes + size_bytes / 8, 16);
+        gl.BufferData(GL_SHADER_STORAGE_BUFFER, static_cast<GLsizeiptr>(capacity_bytes_), nullptr, GL_DYNAMIC_DRAW);
+    }
+    if (data != nullptr && size_bytes > 0)
+        gl.BufferSubData(GL_SHADER_STORAGE_BUFFER, 0, static_cast<GLsizeiptr>(size_bytes), data);
+}
+
+void GlBuffer::bind(unsigned index) const {
+    context_->gl().BindBufferBase(GL_SHADER_STORAGE_BUFFER, index, id_);
+}
+
+Expected<const void*> GlBuffer::map(std::size_t size_bytes) const {
+    const GlFunctions& gl = context_->gl();
+    gl.MemoryBarrier(GL_CLIENT_MAPPED_BUFFER_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+    gl.BindBuffer(GL_SHADER_STORAGE_BUFFER, id_);
+    const void* data =
+        gl.MapBufferRange(GL_SHADER_STORAGE_BUFFER, 0, static_cast<GLsizeiptr>(size_bytes), GL_MAP_READ_BIT);
+    const auto checked = check_errors(gl);
+    if (!checked) return tl::unexpected(checked.error());
+    if (data == nullptr) return fail(ErrorCode::graphics, "GL does not map a buffer");
+    return data;
+}
+
+Expected<void> GlBuffer::unmap() const {
+    const GlFunctions& gl = context_->gl();
+    if (gl.UnmapBuffer(GL_SHADER_STORAGE_BUFFER) == GL_FALSE)
+        return fail(ErrorCode::graphics, "the content of a GL buffer was lost");
+    return check_errors(gl);
+}
+
+}  // namespace macula
