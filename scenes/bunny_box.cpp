@@ -131,7 +131,7 @@ void hang(RoomBuilder& room, int frame, const TextureImage& chart, const glm::ve
 
 void build_charts(RoomBuilder& room) {
     const int frame = room.plain("frame", 0x2B2622, 0.5F);
-    hang(room, frame, make_zone_plate(1024, 0.25F), {-1.75F, 1.75F, -kHalfRoom}, 0.0F, 1.5F);
+    hang(room, frame, make_zone_plate(1024, 0.12F), {-1.75F, 1.75F, -kHalfRoom}, 0.0F, 1.5F);
     hang(room, frame, make_sloan_chart(1024), {1.75F, 1.75F, -kHalfRoom}, 0.0F, 1.5F);
     hang(room, frame, make_text_page(1024), {-kHalfRoom, 1.7F, -0.9F}, 90.0F, 1.3F);
     hang(room, frame, make_siemens_star(1024, 48), {-kHalfRoom, 1.7F, 1.1F}, 90.0F, 1.3F);
@@ -210,14 +210,14 @@ void build_bunny(RoomBuilder& room, const std::string& bunny_path, std::vector<s
 }
 
 void build_lights(RoomBuilder& room) {
-    const glm::vec3 lamp(0.4F, kRoomHeight - 0.12F, 0.5F);
-    room.object("lamp", make_box({1.1F, 0.06F, 1.1F}), room.glowing("lamp glow", glm::vec3(1.6F, 1.55F, 1.45F)),
-                place({lamp.x, kRoomHeight - 0.06F, lamp.z}));
+    const glm::vec3 lamp(0.4F, kRoomHeight - 0.3F, 0.8F);
+    room.object("lamp", make_box({1.1F, 0.03F, 1.1F}), room.glowing("lamp glow", glm::vec3(1.6F, 1.55F, 1.45F)),
+                place({lamp.x, kRoomHeight - 0.03F, lamp.z}));
 
     Light ceiling;
     ceiling.kind = LightKind::point;
     ceiling.position_m = lamp;
-    ceiling.intensity = glm::vec3(22.0F, 21.0F, 19.0F);
+    ceiling.intensity = glm::vec3(26.0F, 24.8F, 22.5F);
 
     Light fill;
     fill.kind = LightKind::spot;
@@ -227,7 +227,7 @@ void build_lights(RoomBuilder& room) {
     fill.spot_cos_inner = std::cos(glm::radians(18.0F));
     fill.spot_cos_outer = std::cos(glm::radians(42.0F));
     room.scene().lights = {ceiling, fill};
-    room.scene().ambient_radiance = glm::vec3(0.16F, 0.165F, 0.18F);
+    room.scene().ambient_radiance = glm::vec3(0.19F, 0.195F, 0.21F);
 }
 
 }  // namespace
