@@ -1,0 +1,73 @@
+#pragma once
+
+#include "protocol/gl/kernel_language.h"
+
+// Texture lookup in two pure steps, so that each side reads its texels in its own way: where the four texels lie,
+// and how they mix.
+
+KERNEL_BEGIN
+
+const int kWrapRepeat = 0;
+const int kWrapMirroredRepeat = 1;
+const int kWrapClampToEdge = 2;
+
+/// How a material looks up an image.
+struct Texture {
+    vec4 uv_scale_rotation;  ///< columns of the 2x2 matrix of KHR_texture_transform
+    vec2 uv_offset;
+    ivec2 size_px;
+    ivec2 wrap;   ///< kWrap* for u and v
+    int nearest;  ///< 1: the texel that holds the position; 0: bilinear
+};
+
+/// Texels around a position: columns x.x and x.y, rows y.x and y.y; `weight` is that of the second column and row.
+struct TexelFootprint {
+    ivec2 x;
+    ivec2 y;
+    vec2 weight;
+};
+
+/// Coordinate in 0..1 that the sampler's wrap mode reads for any coordinate.
+KERNEL float wrap_coordinate(float u, int wrap) {
+    float repeated = u - floor(u);
+    float folded = abs(u - 2.0F * floor(u * 0.5F + 0.5F));
+    float clamped = clamp(u, 0.0F, 1.0F);
+    return wrap == kWrapRepeat ? repeated : (wrap == kWrapMirroredRepeat ? folded : clamped);
+}
+
+/// Column or row of an index in -1..size: the far side where the image repeats; otherwise the edge, which is also
+/// its own mirror image.
+KERNEL int wrap_texel(int i, int size, int wrap) {
+    int beyond = i < 0 ? size - 1 : (i >= size ? 0 : i);
+    return wrap == kWrapRepeat ? beyond : clamp(i, 0, size - 1);
+}
+
+/// Coordinates after the texture's transform (KHR_texture_transform).
+KERNEL vec2 transform_uv(Texture t, vec2 uv) {
+    return vec2(t.uv_scale_rotation.x * uv.x + t.uv_scale_rotation.z * uv.y + t.uv_offset.x,
+                t.uv_scale_rotation.y * uv.x + t.uv_scale_rotation.w * uv.y + t.uv_offset.y);
+}
+
+/// Texels that the texture reads at untransformed coordinates; (0, 0) is the top left corner of the image.
+KERNEL TexelFootprint texel_footprint(Texture t, vec2 uv) {
+    vec2 transformed = transform_uv(t, uv);
+    float shift = t.nearest == 1 ? 0.0F : 0.5F;
+    float px = wrap_coordinate(transformed.x, t.wrap.x) * float(t.size_px.x) - shift;
+    float py = wrap_coordinate(transformed.y, t.wrap.y) * float(t.size_px.y) - shift;
+    float left = floor(px);
+    float top = floor(py);
+    int x = int(left);
+    int y = int(top);
+    TexelFootprint footprint;
+    footprint.weight = t.nearest == 1 ? vec2(0.0F) : vec2(px - left, py - top);
+    footprint.x = ivec2(wrap_texel(x, t.size_px.x, t.wrap.x), wrap_texel(x + 1, t.size_px.x, t.wrap.x));
+    footprint.y = ivec2(wrap_texel(y, t.size_px.y, t.wrap.y), wrap_texel(y + 1, t.size_px.y, t.wrap.y));
+    return footprint;
+}
+
+/// Mixes the four texels of a footprint; the first index is the column's.
+KERNEL vec4 mix_texels(TexelFootprint f, vec4 t00, vec4 t10, vec4 t01, vec4 t11) {
+    return mix(mix(t00, t10, f.weight.x), mix(t01, t11, f.weight.x), f.weight.y);
+}
+
+KERNEL_END

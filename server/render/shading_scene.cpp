@@ -1,0 +1,128 @@
+#include "server/render/shading_scene.h"
+
+#include <algorithm>
+
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+
+#include "server/kernels/color.h"
+
+namespace macula {
+namespace {
+
+kernels::Light kernel_light(const Light& light) {
+    kernels::Light result{};
+    const bool local = light.kind != LightKind::directional;
+    result.position = local ? glm::vec4(light.position_m, 1.0F) : glm::vec4(-light.direction, 0.0F);
+    result.direction = light.direction;
+    result.intensity = light.intensity;
+    result.inverse_range = local && light.range_m > 0.0F ? 1.0F / light.range_m : 0.0F;
+    result.spot_scale = 0.0F;
+    result.spot_offset = 1.0F;
+    if (light.kind == LightKind::spot) {
+        result.spot_scale = 1.0F / std::max(0.001F, light.spot_cos_inner - light.spot_cos_outer);
+        result.spot_offset = -light.spot_cos_outer * result.spot_scale;
+    }
+    return result;
+}
+
+int kernel_wrap(TextureWrap wrap) {
+    if (wrap == TextureWrap::clamp_to_edge) return kernels::kWrapClampToEdge;
+    return wrap == TextureWrap::mirrored_repeat ? kernels::kWrapMirroredRepeat : kernels::kWrapRepeat;
+}
+
+template <class T>
+std::size_t bytes_of(const std::vector<std::vector<T>>& arrays) {
+    std::size_t bytes = 0;
+    for (const auto& array : arrays) bytes += array.capacity() * sizeof(T) + sizeof(array);
+    return bytes;
+}
+
+}  // namespace
+
+bool mirrors(const Instance& instance) {
+    return glm::determinant(glm::mat3(instance.world_from_mesh)) < 0.0F;
+}
+
+ShadingScene::ShadingScene(std::shared_ptr<const Scene> scene) : scene_(std::move(scene)) {
+    for (std::size_t code = 0; code < decode_linear_.size(); ++code) {
+        decode_linear_[code] = static_cast<float>(code) / 255.0F;
+        decode_srgb_[code] = kernels::linear_from_srgb(decode_linear_[code]);
+    }
+    const std::size_t count = scene_->instances.size();
+    instances_.reserve(count);
+    normals_.reserve(count);
+    tangents_.reserve(count);
+    for (const Instance& instance : scene_->instances) add_instance(instance);
+    for (const Light& light : scene_->lights) {
+        if (light.intensity != glm::vec3(0.0F)) lights_.push_back({kernel_light(light), light.casts_shadow});
+    }
+}
+
+void ShadingScene::add_instance(const Instance& instance) {
+    const Mesh& mesh = scene_->meshes[static_cast<std::size_t>(instance.mesh)];
+    const Material& material = scene_->materials[static_cast<std::size_t>(mesh.material)];
+    const glm::mat3 world_from_mesh(instance.world_from_mesh);
+    const glm::mat3 normal_matrix = glm::transpose(glm::inverse(world_from_mesh));
+    ShadingInstance result;
+    result.material = &material;
+    result.triangle = mesh.triangle.data();
+    if (mirrors(instance)) {
+        auto& triangles = mirrored_triangles_.emplace_back(mesh.triangle);
+        for (glm::uvec3& t : triangles) std::swap(t.y, t.z);
+        result.triangle = triangles.data();
+    }
+
+    auto& normals = normals_.emplace_back(mesh.normal);
+    for (glm::vec3& n : normals) n = glm::normalize(normal_matrix * n);
+    result.normal = normals.data();
+
+    const auto add_texture = [&](const TextureUse& use, Feature feature, ShadingTexture& destination) {
+        const auto& uv = use.uv_set == 0 ? mesh.uv0 : mesh.uv1;
+        if (!use.present() || uv.empty()) return;
+        destination = texture(use, mesh);
+        result.features |= feature;
+    };
+    add_texture(material.base_color_texture, kBaseColorTexture, result.base_color);
+    if (!mesh.color.empty()) {
+        result.color = mesh.color.data();
+        result.features |= kVertexColor;
+    }
+    if (material.unlit) {
+        result.features |= kUnlit;
+    } else {
+        add_texture(material.metallic_roughness_texture, kMetallicRoughnessTexture, result.metallic_roughness);
+        add_texture(material.emissive_texture, kEmissiveTexture, result.emissive);
+        if (!mesh.tangent.empty()) add_texture(material.normal_texture, kNormalTexture, result.normal_map);
+    }
+    if ((result.features & kNormalTexture) != 0) {
+        // The bitangent keeps its side of the mirrored normal and tangent: cross products flip.
+        const float handedness = mirrors(instance) ? -1.0F : 1.0F;
+        auto& tangents = tangents_.emplace_back(mesh.tangent);
+        for (glm::vec4& t : tangents) t = glm::vec4(glm::normalize(world_from_mesh * glm::vec3(t)), t.w * handedness);
+        result.tangent = tangents.data();
+    }
+    instances_.push_back(result);
+}
+
+ShadingTexture ShadingScene::texture(const TextureUse& use, const Mesh& mesh) const {
+    const TextureImage& image = scene_->images[static_cast<std::size_t>(use.image)];
+    ShadingTexture result;
+    result.lookup.uv_scale_rotation = use.uv_scale_rotation;
+    result.lookup.uv_offset = use.uv_offset;
+    result.lookup.size_px = {image.width_px, image.height_px};
+    result.lookup.wrap = {kernel_wrap(use.wrap_u), kernel_wrap(use.wrap_v)};
+    result.lookup.nearest = use.filter == TextureFilter::nearest ? 1 : 0;
+    result.rgba = image.rgba.data();
+    result.decode_rgb = image.srgb ? decode_srgb_.data() : decode_linear_.data();
+    result.uv = use.uv_set == 0 ? mesh.uv0.data() : mesh.uv1.data();
+    return result;
+}
+
+std::size_t ShadingScene::memory_bytes() const {
+    return instances_.capacity() * sizeof(ShadingInstance) + bytes_of(normals_) + bytes_of(tangents_) +
+           bytes_of(mirrored_triangles_);
+}
+
+}  // namespace macula

@@ -1,0 +1,92 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include "scenes/scene.h"
+#include "server/kernels/light.h"
+#include "server/kernels/texture.h"
+
+namespace macula {
+
+/// What a hit on an instance needs beyond the factors of its material. What no lane of a packet needs is skipped.
+enum Feature : std::uint32_t {
+    kVertexColor = 1U << 0,
+    kBaseColorTexture = 1U << 1,
+    kMetallicRoughnessTexture = 1U << 2,
+    kNormalTexture = 1U << 3,
+    kEmissiveTexture = 1U << 4,
+    kUnlit = 1U << 5,
+};
+
+/// Decoded values of the 256 codes of a texel's channel.
+using DecodeTable = std::array<float, 256>;
+
+/// A texture as one instance reads it.
+struct ShadingTexture {
+    kernels::Texture lookup{};
+    const std::uint8_t* rgba = nullptr;
+    const float* decode_rgb = nullptr;  ///< a DecodeTable
+    const glm::vec2* uv = nullptr;      ///< per vertex
+};
+
+/// One instance with its material. Pointers are to the scene or to the ShadingScene.
+struct ShadingInstance {
+    const glm::uvec3* triangle = nullptr;
+    const glm::vec3* normal = nullptr;   ///< world space, unit
+    const glm::vec4* tangent = nullptr;  ///< world space; present with kNormalTexture
+    const glm::vec4* color = nullptr;    ///< present with kVertexColor
+    const Material* material = nullptr;
+    std::uint32_t features = 0;  ///< of `Feature`
+    ShadingTexture base_color;
+    ShadingTexture metallic_roughness;
+    ShadingTexture normal_map;
+    ShadingTexture emissive;
+};
+
+/// A light and whether its rays are traced.
+struct ShadingLight {
+    kernels::Light light{};
+    bool casts_shadow = true;
+};
+
+/// A scene as shading reads it: every instance in world space. Keeps the scene. Constant once built.
+class ShadingScene {
+public:
+    explicit ShadingScene(std::shared_ptr<const Scene> scene);
+    ShadingScene(const ShadingScene&) = delete;  // instances point into it
+    ShadingScene& operator=(const ShadingScene&) = delete;
+
+    [[nodiscard]] const Scene& scene() const { return *scene_; }
+    /// By the scene's instance index.
+    [[nodiscard]] const std::vector<ShadingInstance>& instances() const { return instances_; }
+    /// Without those of intensity zero.
+    [[nodiscard]] const std::vector<ShadingLight>& lights() const { return lights_; }
+    /// Bytes beyond those of the scene.
+    [[nodiscard]] std::size_t memory_bytes() const;
+
+private:
+    [[nodiscard]] ShadingTexture texture(const TextureUse& use, const Mesh& mesh) const;
+    void add_instance(const Instance& instance);
+
+    std::shared_ptr<const Scene> scene_;
+    std::vector<ShadingInstance> instances_;
+    std::vector<ShadingLight> lights_;
+    // The inner vectors never move once filled.
+    std::vector<std::vector<glm::vec3>> normals_;
+    std::vector<std::vector<glm::vec4>> tangents_;
+    std::vector<std::vector<glm::uvec3>> mirrored_triangles_;
+    DecodeTable decode_srgb_{};
+    DecodeTable decode_linear_{};
+};
+
+/// Whether the instance turns its mesh inside out, which reverses the corner order of front faces.
+bool mirrors(const Instance& instance);
+
+}  // namespace macula
