@@ -37,8 +37,11 @@ public:
     [[nodiscard]] virtual std::string name() const = 0;
 };
 
-/// The kernel compiled as C++, run over tile rows on the shared thread pool: the oracle of every other
-/// reconstructor, and the fast path where GL is software.
+/// The kernel compiled as C++, pixel by pixel on the calling thread: the oracle of the others.
+std::unique_ptr<Reconstructor> make_reference_reconstructor(std::shared_ptr<const TileTables> tables);
+
+/// The same rule in vector loops over tiles, on the shared thread pool: equal to the reference to the bit, and the
+/// fast path where GL is software.
 std::unique_ptr<Reconstructor> make_cpu_reconstructor(std::shared_ptr<const TileTables> tables);
 
 /// The same kernel as a GL compute program. The context must outlive the reconstructor and is made current on

@@ -1,0 +1,156 @@
+#include <algorithm>
+#include <array>
+#include <cstring>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include "server/render/reconstruct_source.h"
+#include "server/render/reconstructor.h"
+
+namespace macula {
+
+namespace {
+
+using Colors = std::array<Rgba8, kTileArea_px>;
+using InverseDepths = std::array<float, kTileArea_px>;
+
+/// Samples or pixels of one tile.
+struct Patch {
+    alignas(64) Colors color;
+    alignas(64) InverseDepths inverse_depth;
+};
+
+/// Makes pictures of tiles by loops that a compiler turns into vector instructions. Where a tile misses samples, the
+/// few pixels that need them are left to the kernel.
+class TileReconstructor {
+public:
+    TileReconstructor(const kernels::ReconstructSource& source, const kernels::ReconstructView& view)
+        : source_(source), view_(view) {}
+
+    void reconstruct(int tile_x, int tile_y, Patch& pixels) const {
+        const int tile = tile_y * view_.tiles.x + tile_x;
+        switch (kernels::tile_count(source_, tile)) {
+            case 0:
+                pixels.color.fill(kernels::kOpaqueBlack);
+                pixels.inverse_depth.fill(0.0F);
+                break;
+            case kTileArea_px:
+                copy_full(tile, pixels);
+                break;
+            default:
+                interpolate(tile, {tile_x, tile_y}, pixels);
+        }
+    }
+
+private:
+    void copy_full(int tile, Patch& pixels) const {
+        const int offset = kernels::tile_offset(source_, tile);
+        const Rgba8* const color = source_.samples.color.data() + offset;
+        const float* const inverse_depth = source_.samples.inverse_depth_per_m.data() + offset;
+        for (std::size_t i = 0; i < kTileArea_px; ++i) {
+            pixels.color[i] = inverse_depth[i] < 0.0F ? kernels::kOpaqueBlack : color[i];
+            pixels.inverse_depth[i] = inverse_depth[i] < 0.0F ? 0.0F : inverse_depth[i];
+        }
+    }
+
+    void interpolate(int tile, glm::ivec2 place, Patch& pixels) const {
+        const glm::ivec2 in_rank_tile = (view_.first_cell + place) % RankTile::kCells;
+        const CellTable& cell = source_.tables.cell(kernels::tile_level(source_, tile), in_rank_tile.x, in_rank_tile.y);
+        Patch palette;
+        const bool complete = fetch(tile, cell, palette);
+        blend(cell, palette, pixels);
+        if (complete) return;
+        for (int i = 0; i < kTileArea_px; ++i) {
+            const auto missing = [&](std::uint8_t index) { return palette.inverse_depth[index] < 0.0F; };
+            if (missing(cell.a[i]) || missing(cell.b[i]) || missing(cell.c[i]))
+                kernels::reconstruct_pixel(source_, view_, place, {i % kTileEdge_px, i / kTileEdge_px}, pixels.color[i],
+                                           pixels.inverse_depth[i]);
+        }
+    }
+
+    /// Gathers the samples of a tile's palette; a missing one gets inverse depth -1. False: some are missing.
+    bool fetch(int tile, const CellTable& cell, Patch& palette) const {
+        const auto count = static_cast<std::size_t>(kernels::tile_count(source_, tile));
+        const auto offset = static_cast<std::size_t>(kernels::tile_offset(source_, tile));
+        const Rgba8* const color = source_.samples.color.data();
+        const float* const inverse_depth = source_.samples.inverse_depth_per_m.data();
+        std::copy_n(color + offset, count, palette.color.begin());
+        std::copy_n(inverse_depth + offset, count, palette.inverse_depth.begin());
+        for (std::size_t i = count; i < cell.palette.size(); ++i) {
+            const int address =
+                kernels::find_sample(source_, view_.tiles.x, tile, kernels::palette_entry(cell, static_cast<int>(i)));
+            palette.color[i] = address < 0 ? 0U : color[address];
+            palette.inverse_depth[i] = address < 0 ? -1.0F : inverse_depth[address];
+        }
+        float least = 0.0F;
+        for (std::size_t i = 0; i < cell.palette.size(); ++i) least = std::min(least, palette.inverse_depth[i]);
+        return least >= 0.0F;
+    }
+
+    static void blend(const CellTable& cell, const Patch& palette, Patch& pixels) {
+        for (std::size_t i = 0; i < kTileArea_px; ++i) {
+            const std::size_t a = cell.a[i];
+            const std::size_t b = cell.b[i];
+            const std::size_t c = cell.c[i];
+            const std::uint32_t weight_b = cell.weight_b[i];
+            const std::uint32_t weight_c = cell.weight_c[i];
+            pixels.color[i] = kernels::blend_color(palette.color[a], palette.color[b], palette.color[c],
+                                                   256 - weight_b - weight_c, weight_b, weight_c);
+            pixels.inverse_depth[i] = kernels::blend_inverse_depth(palette.inverse_depth[a], palette.inverse_depth[b],
+                                                                   palette.inverse_depth[c], weight_b, weight_c);
+        }
+    }
+
+    const kernels::ReconstructSource& source_;
+    const kernels::ReconstructView& view_;
+};
+
+/// Copies the part of a tile's picture that lies in the window.
+void place(const Patch& pixels, glm::ivec2 top_left, const kernels::ReconstructView& view,
+           const ReconstructTarget& target) {
+    const glm::ivec2 first = glm::max(glm::ivec2(0), -top_left);
+    const glm::ivec2 last = glm::min(glm::ivec2(kTileEdge_px), view.size_px - top_left);
+    const auto width = static_cast<std::size_t>(last.x - first.x);
+    for (int y = first.y; y < last.y; ++y) {
+        const auto row = static_cast<std::size_t>(top_left.y + y);
+        const auto column = static_cast<std::size_t>(top_left.x + first.x);
+        const auto from = static_cast<std::size_t>(y * kTileEdge_px + first.x);
+        std::memcpy(target.color + row * target.color_stride_px + column, &pixels.color[from], width * sizeof(Rgba8));
+        std::memcpy(target.inverse_depth_per_m + row * target.depth_stride_px + column, &pixels.inverse_depth[from],
+                    width * sizeof(float));
+    }
+}
+
+class CpuReconstructor final : public Reconstructor {
+public:
+    explicit CpuReconstructor(std::shared_ptr<const TileTables> tables) : tables_(std::move(tables)) {}
+
+    Expected<void> reconstruct(const SamplePlan& plan, const Samples& samples,
+                               const ReconstructTarget& target) override {
+        const kernels::ReconstructSource source{plan, samples, *tables_};
+        const kernels::ReconstructView view = reconstruct_view(plan);
+        const TileReconstructor tiles(source, view);
+        tbb::parallel_for(tbb::blocked_range<int>(1, plan.tiles_y - 1), [&](const tbb::blocked_range<int>& rows) {
+            Patch pixels;
+            for (int tile_y = rows.begin(); tile_y != rows.end(); ++tile_y)
+                for (int tile_x = 1; tile_x < plan.tiles_x - 1; ++tile_x) {
+                    tiles.reconstruct(tile_x, tile_y, pixels);
+                    place(pixels, plan.origin_px + kTileEdge_px * glm::ivec2(tile_x, tile_y), view, target);
+                }
+        });
+        return {};
+    }
+    [[nodiscard]] std::string name() const override { return "C++"; }
+
+private:
+    std::shared_ptr<const TileTables> tables_;
+};
+
+}  // namespace
+
+std::unique_ptr<Reconstructor> make_cpu_reconstructor(std::shared_ptr<const TileTables> tables) {
+    return std::make_unique<CpuReconstructor>(std::move(tables));
+}
+
+}  // namespace macula

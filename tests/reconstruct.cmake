@@ -1,0 +1,2 @@
+macula_test(reconstruct_test SOURCES differential/reconstruct_test.cpp LINK macula_reconstruct macula_test_pictures LABELS fast)
+macula_bench(reconstruct_bench SOURCES bench/reconstruct_bench.cpp LINK macula_reconstruct macula_gl TBB::tbb)
