@@ -31,9 +31,10 @@ using AvFrame = std::unique_ptr<AVFrame, AvFrameDeleter>;
 using AvPacket = std::unique_ptr<AVPacket, AvPacketDeleter>;
 using AvParser = std::unique_ptr<AVCodecParserContext, AvParserDeleter>;
 
-/// A context for `codec` (which may be null) whose messages never reach the process's standard error: errors come
-/// back as values, and mutated streams would otherwise flood the log. Null when memory is short. This is a property
-/// of the context; the process-wide level of av_log_set_level is left to its owner.
+/// A context for `codec` (which may be null) whose messages do not reach the process's standard error: errors come
+/// back as values, and broken streams would flood the log. This is a property of the context; av_log_set_level, which
+/// is the whole process's, stays with whoever owns the process. A few warnings that the H.264 decoder prints without
+/// its context remain, such as for two pictures in one access unit. Null when memory is short.
 AvContext make_quiet_context(const AVCodec* codec);
 
 /// libav's text for one of its error numbers.

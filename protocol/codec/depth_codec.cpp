@@ -1,7 +1,6 @@
 #include "protocol/codec/depth_codec.h"
 
 #include <array>
-#include <cmath>
 
 #include "protocol/codec/av_decoder.h"
 #include "protocol/codec/av_encoder.h"
@@ -10,9 +9,13 @@
 namespace macula {
 namespace {
 
-Expected<void> check_near(float near_m) {
-    if (std::isfinite(near_m) && near_m >= 1e-4F && near_m <= 1e4F) return {};
-    return fail(ErrorCode::protocol, "a near depth of " + std::to_string(near_m) + " m; 0.0001 to 10000 are allowed");
+/// Keeps codes and inverse depths finite; false for not-a-number.
+bool usable_near(float near_m) {
+    return near_m >= 1e-4F && near_m <= 1e4F;
+}
+
+Error near_error(ErrorCode code, float near_m) {
+    return {code, "a near depth of " + std::to_string(near_m) + " m; 0.0001 to 10000 are allowed"};
 }
 
 class AvDepthEncoder final : public DepthEncoder {
@@ -26,7 +29,7 @@ public:
                                                  std::to_string(full.height_px) + " went to an encoder of " +
                                                  std::to_string(width_px_) + "x" + std::to_string(height_px_));
         }
-        if (auto valid = check_near(near_m); !valid) return tl::unexpected(valid.error());
+        if (!usable_near(near_m)) return tl::unexpected(near_error(ErrorCode::internal, near_m));
         const auto frame = encoder_.picture();
         if (!frame) return tl::unexpected(frame.error());
         nearest_depth_codes(full, near_m, (*frame)->data[0], (*frame)->linesize[0]);
@@ -46,7 +49,7 @@ public:
     Expected<void> decode(std::span<const std::uint8_t> bytes, float near_m, InverseDepthImage& quarter) override {
         const auto frame = decoder_.decode(bytes);
         if (!frame) return tl::unexpected(frame.error());
-        if (auto valid = check_near(near_m); !valid) return valid;
+        if (!usable_near(near_m)) return tl::unexpected(near_error(ErrorCode::protocol, near_m));
         const AVFrame& codes = **frame;
         // libavcodec decodes monochrome H.264 into 4:2:0 with grey chroma.
         if (codes.format != AV_PIX_FMT_YUVJ420P && codes.format != AV_PIX_FMT_GRAY8) {

@@ -5,7 +5,7 @@
 
 #include "protocol/codec/codec.h"
 #include "protocol/codec/color_convert.h"
-#include "tests/codec_pictures.h"
+#include "tests/support/codec_pictures.h"
 
 namespace macula {
 namespace {
