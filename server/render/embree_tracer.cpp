@@ -228,7 +228,7 @@ void EmbreeTracer::trace_packet(const TraceTask& task, const glm::mat3& world_fr
     RTCRayHit16 rays;
     HitPacket hits;
     hits.origin = origin;
-#pragma omp simd
+    MACULA_LANE_LOOP
     for (int i = 0; i < kLaneCount; ++i) {
         const glm::vec3 direction = kernels::eye_ray_direction(world_from_eye, edges, size_px, glm::vec2(x[i], y[i]));
         hits.direction.set(i, direction);

@@ -98,7 +98,7 @@ void find_surfaces(const ShadingScene& scene, const HitPacket& hits, SurfacePack
     fetch(scene, hits, surfaces);
 
     const vec3 ambient = scene.scene().ambient_radiance;
-#pragma omp simd
+    MACULA_LANE_LOOP
     for (int i = 0; i < kLaneCount; ++i) {
         const vec3 direction = hits.direction[i];
         const float length = std::sqrt(glm::dot(direction, direction));
@@ -122,7 +122,7 @@ void find_surfaces(const ShadingScene& scene, const HitPacket& hits, SurfacePack
 
 void shine(const kernels::Light& light, const SurfacePacket& surfaces, LightPacket& shine) noexcept {
     Lanes<float> sum;
-#pragma omp simd
+    MACULA_LANE_LOOP
     for (int i = 0; i < kLaneCount; ++i) {
         const kernels::LightSample sample = kernels::sample_light(light, surfaces.position[i]);
         const kernels::Reflectance reflectance =
@@ -139,7 +139,7 @@ void shine(const kernels::Light& light, const SurfacePacket& surfaces, LightPack
 }
 
 void add_light(const LightPacket& light, LaneMask reached, SurfacePacket& surfaces) noexcept {
-#pragma omp simd
+    MACULA_LANE_LOOP
     for (int i = 0; i < kLaneCount; ++i) {
         const bool add = ((reached >> i) & 1U) != 0;
         surfaces.radiance.x[i] += add ? light.radiance.x[i] : 0.0F;
@@ -149,7 +149,7 @@ void add_light(const LightPacket& light, LaneMask reached, SurfacePacket& surfac
 }
 
 void encode(const SurfacePacket& surfaces, float exposure, Lanes<std::uint32_t>& color) noexcept {
-#pragma omp simd
+    MACULA_LANE_LOOP
     for (int i = 0; i < kLaneCount; ++i) color[i] = kernels::srgb8_from_linear(surfaces.radiance[i] * exposure);
 }
 

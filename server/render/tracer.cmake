@@ -2,6 +2,4 @@ macula_library(macula_tracer
     SOURCES embree_tracer.cpp packet_shading.cpp shading_scene.cpp
     LINK macula_base macula_masks macula_scenes
     PRIVATE_LINK macula_kernels embree TBB::tbb)
-# Loops over the lanes of a packet are marked `omp simd`: vectorised without OpenMP's runtime.
-target_compile_options(macula_tracer PRIVATE -fopenmp-simd)
 target_compile_definitions(macula_tracer PRIVATE MACULA_EMBREE_MAJOR=${embree_VERSION_MAJOR})
