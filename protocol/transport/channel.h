@@ -22,15 +22,17 @@ public:
     Channel& operator=(const Channel&) = delete;
     virtual ~Channel() = default;
 
-    /// Next message body. Errors: `timeout` (nothing arrived; the channel stays usable only if no byte of a
-    /// message had arrived yet), `protocol` (oversized length), `network` (closed or broken).
+    /// Next message body. Errors: `timeout` (no whole message arrived; the channel stays usable, and what arrived
+    /// of one is kept), `protocol` (oversized length; the channel is then closed), `network` (closed or broken).
     virtual Expected<Bytes> receive(std::chrono::milliseconds timeout) = 0;
 
-    /// Sends one message body. Errors: `timeout` (the peer does not read; the channel is then closed),
-    /// `network`.
+    /// Sends one message body; returns when the system has taken it. Several threads may send: whole messages go
+    /// out one after the other. Errors: `timeout` (the peer does not read; the channel is then closed),
+    /// `protocol` (larger than the peer accepts; nothing is sent), `network`.
     virtual Expected<void> send(std::span<const std::byte> body, std::chrono::milliseconds timeout) = 0;
 
-    /// Ends the channel; pending and later calls fail with `network`.
+    /// Ends the channel; pending and later calls fail with `network`. What was sent before still reaches a peer
+    /// that reads.
     virtual void close() noexcept = 0;
 
     /// "address:port" of the peer, for logs.

@@ -1,0 +1,8 @@
+macula_test(identity_test
+    SOURCES unit/identity_test.cpp
+    LINK macula_transport
+    LABELS fast)
+macula_test(transport_test
+    SOURCES integration/transport_test.cpp
+    LINK macula_transport OpenSSL::SSL
+    LABELS fast)
