@@ -1,0 +1,144 @@
+#include "scenes/gltf.h"
+
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "scenes/framing.h"
+#include "scenes/gltf_document.h"
+#include "scenes/gltf_light.h"
+#include "scenes/gltf_material.h"
+#include "scenes/gltf_mesh.h"
+#include "scenes/gltf_node.h"
+
+namespace macula {
+namespace {
+
+void warn_of_what_is_ignored(GltfContext& context) {
+    const tinygltf::Model& model = context.document.model;
+    const std::set<std::string> used(model.extensionsUsed.begin(), model.extensionsUsed.end());
+    for (const std::string& name : used)
+        if (!is_supported_extension(name)) context.warn("extension " + name, "is optional, unknown and ignored");
+    if (!model.animations.empty()) context.warn("animations", "are ignored; nodes keep their rest transforms");
+    if (!model.skins.empty()) context.warn("skins", "are ignored; meshes keep their rest shapes");
+    for (const tinygltf::Mesh& mesh : model.meshes)
+        for (const tinygltf::Primitive& primitive : mesh.primitives)
+            if (!primitive.targets.empty()) return context.warn("morph targets", "are ignored");
+}
+
+/// Fills the scene from the nodes that are shown; meshes and materials that no node uses are not read.
+class GltfSceneReader {
+public:
+    explicit GltfSceneReader(GltfContext& context)
+        : context_(context), materials_(context, scene_), meshes_(context.document.model.meshes.size()) {}
+
+    Expected<Scene> read() {
+        const Expected<std::vector<PlacedNode>> nodes = place_gltf_nodes(context_);
+        if (!nodes) return tl::unexpected(nodes.error());
+        for (const PlacedNode& node : *nodes)
+            if (const Expected<void> added = add_node(node); !added) return tl::unexpected(added.error());
+        if (scene_.instances.empty()) return context_.error("scene", "there are no triangles to show");
+        return std::move(scene_);
+    }
+
+private:
+    Expected<void> add_node(const PlacedNode& placed) {
+        const tinygltf::Node& node = context_.document.model.nodes[placed.node];
+        const std::string element = element_name("node", placed.node, node.name);
+        const auto light = node.extensions.find("KHR_lights_punctual");
+        if (node.mesh == -1 && light == node.extensions.end()) return {};
+        if (placed.singular) {
+            context_.warn(element, "is flattened by a singular transform and left out");
+            return {};
+        }
+        if (light != node.extensions.end()) {
+            const tinygltf::Value& index = light->second.Get("light");
+            if (!index.IsInt()) return context_.error(element, "KHR_lights_punctual does not name a light");
+            Expected<Light> read = read_gltf_light(context_, index.GetNumberAsInt(), placed.world_from_node);
+            if (!read) return tl::unexpected(read.error());
+            scene_.lights.push_back(*read);
+        }
+        return node.mesh == -1 ? Expected<void>() : add_instances(node, element, placed.world_from_node);
+    }
+
+    Expected<void> add_instances(const tinygltf::Node& node, const std::string& element,
+                                 const glm::mat4& world_from_mesh) {
+        if (node.mesh < 0 || static_cast<std::size_t>(node.mesh) >= meshes_.size())
+            return context_.error(element, "mesh " + std::to_string(node.mesh) + " does not exist");
+        const auto index = static_cast<std::size_t>(node.mesh);
+        if (!meshes_[index]) {
+            Expected<std::vector<int>> read = read_mesh(index);
+            if (!read) return tl::unexpected(read.error());
+            meshes_[index] = std::move(*read);
+        }
+        for (const int mesh : *meshes_[index]) {
+            if (scene_.instances.size() >= context_.limits.instances)
+                return context_.error(
+                    element, "there are more than " + std::to_string(context_.limits.instances) + " instances");
+            scene_.instances.push_back({node.name.empty() ? element : node.name, mesh, world_from_mesh});
+        }
+        return {};
+    }
+
+    /// The scene meshes that a glTF mesh consists of.
+    Expected<std::vector<int>> read_mesh(std::size_t index) {
+        const tinygltf::Mesh& from = context_.document.model.meshes[index];
+        std::vector<int> meshes;
+        for (std::size_t i = 0; i < from.primitives.size(); ++i) {
+            const tinygltf::Primitive& primitive = from.primitives[i];
+            const Expected<int> material = materials_.material(primitive.material);
+            if (!material) return tl::unexpected(material.error());
+            const std::string element = element_name("mesh", index, from.name) + ", primitive " + std::to_string(i);
+            Expected<std::optional<Mesh>> mesh = read_gltf_primitive(
+                context_, primitive, element, scene_.materials[static_cast<std::size_t>(*material)], *material);
+            if (!mesh) return tl::unexpected(mesh.error());
+            if (!*mesh) continue;
+            meshes.push_back(static_cast<int>(scene_.meshes.size()));
+            scene_.meshes.push_back(std::move(**mesh));
+        }
+        return meshes;
+    }
+
+    GltfContext& context_;
+    Scene scene_;
+    GltfMaterialReader materials_;
+    std::vector<std::optional<std::vector<int>>> meshes_;  ///< scene meshes by glTF mesh, once read
+};
+
+Expected<LoadedScene> load(std::span<const std::uint8_t> bytes, const std::string& name, const std::string& folder,
+                           const GltfLimits& limits) {
+    const Expected<GltfDocument> document = read_gltf_document(bytes, name, folder, limits);
+    if (!document) return tl::unexpected(document.error());
+    GltfContext context(*document, limits);
+    warn_of_what_is_ignored(context);
+    Expected<Scene> scene = GltfSceneReader(context).read();
+    if (!scene) return tl::unexpected(scene.error());
+
+    const Bounds bounds = world_bounds(*scene);
+    if (!std::isfinite(glm::dot(bounds.size(), bounds.size())))
+        return context.error("scene", "the transforms lead beyond what a float can hold");
+    expose_gltf_lights(*scene, bounds);
+    frame_start(*scene, bounds);
+    scene->name = name;
+    return LoadedScene{std::make_shared<const Scene>(std::move(*scene)), std::move(context.warnings)};
+}
+
+}  // namespace
+
+Expected<LoadedScene> load_gltf(const std::string& path, const GltfLimits& limits) {
+    const Expected<std::vector<std::uint8_t>> bytes = read_file(path, limits.file_bytes);
+    if (!bytes) return tl::unexpected(bytes.error());
+    const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+    return load(*bytes, path, folder.empty() ? "./" : folder.string(), limits);
+}
+
+Expected<LoadedScene> load_gltf_from_memory(std::span<const std::uint8_t> bytes, const std::string& name,
+                                            const GltfLimits& limits) {
+    return load(bytes, name, "", limits);
+}
+
+}  // namespace macula

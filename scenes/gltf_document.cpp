@@ -1,0 +1,198 @@
+#include "scenes/gltf_document.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+namespace macula {
+namespace {
+
+/// tinygltf turns `extras` into values recursively; deeper JSON would exhaust its stack.
+constexpr int kMaxJsonDepth = 128;
+
+constexpr std::array<std::string_view, 4> kSupportedExtensions = {"KHR_lights_punctual", "KHR_texture_transform",
+                                                                  "KHR_materials_unlit", "KHR_mesh_quantization"};
+
+int json_depth(std::string_view json) {
+    int depth = 0;
+    int deepest = 0;
+    bool in_string = false;
+    for (std::size_t i = 0; i < json.size(); ++i) {
+        const char c = json[i];
+        if (in_string) {
+            if (c == '\\') ++i;
+            if (c == '"') in_string = false;
+        } else if (c == '"') {
+            in_string = true;
+        } else if (c == '{' || c == '[') {
+            deepest = std::max(deepest, ++depth);
+        } else if (c == '}' || c == ']') {
+            --depth;
+        }
+    }
+    return deepest;
+}
+
+std::uint32_t little_endian_32(std::span<const std::uint8_t> bytes, std::size_t at) {
+    return static_cast<std::uint32_t>(bytes[at]) | static_cast<std::uint32_t>(bytes[at + 1]) << 8U |
+           static_cast<std::uint32_t>(bytes[at + 2]) << 16U | static_cast<std::uint32_t>(bytes[at + 3]) << 24U;
+}
+
+bool is_glb(std::span<const std::uint8_t> bytes) {
+    return bytes.size() >= 4 && std::memcmp(bytes.data(), "glTF", 4) == 0;
+}
+
+/// The JSON of a GLB container all of whose chunks lie inside the file: tinygltf forgets the second chunk's header when
+/// it compares sizes.
+Expected<std::string_view> glb_json(std::span<const std::uint8_t> bytes, const std::string& name) {
+    constexpr std::size_t kHeader = 12;
+    constexpr std::size_t kChunkHeader = 8;
+    const auto refuse = [&name](const char* what) { return fail(ErrorCode::input_file, name + ": " + what); };
+    if (bytes.size() < kHeader + kChunkHeader) return refuse("the GLB header is cut off");
+    if (little_endian_32(bytes, 4) != 2) return refuse("the GLB container is not of version 2");
+    const std::size_t length = little_endian_32(bytes, 8);
+    if (length > bytes.size() || length < kHeader + kChunkHeader) return refuse("the GLB file is cut off");
+    const std::size_t json_bytes = little_endian_32(bytes, kHeader);
+    if (json_bytes > length - kHeader - kChunkHeader) return refuse("the GLB JSON chunk is cut off");
+    const std::size_t second = kHeader + kChunkHeader + json_bytes;
+    if (second != length &&
+        (length - second < kChunkHeader || little_endian_32(bytes, second) > length - second - kChunkHeader))
+        return refuse("the GLB binary chunk is cut off");
+    return std::string_view(reinterpret_cast<const char*>(bytes.data()) + kHeader + kChunkHeader, json_bytes);
+}
+
+/// What tinygltf's file callbacks may do.
+struct FileAccess {
+    std::string folder;  ///< with a slash at its end; empty: no files at all
+    std::size_t max_bytes = 0;
+    std::string refusal;  ///< why the last uri was not followed
+};
+
+/// Whether `path`, as tinygltf joins it from folder and uri, is a relative uri that stays below the folder.
+bool allowed(FileAccess& access, const std::string& path) {
+    // tinygltf also looks below the current directory, which is nobody's business.
+    if (access.folder.empty() || path.compare(0, access.folder.size(), access.folder) != 0) return false;
+    const std::filesystem::path relative(path.substr(access.folder.size()));
+    if (relative.is_absolute() || std::find(relative.begin(), relative.end(), "..") != relative.end()) {
+        access.refusal = "the uri \"" + relative.string() + "\" leaves the folder of the file";
+        return false;
+    }
+    return true;
+}
+
+bool file_exists(const std::string& path, void* access) {
+    std::error_code error;
+    return allowed(*static_cast<FileAccess*>(access), path) && std::filesystem::is_regular_file(path, error);
+}
+
+std::string expand_file_path(const std::string& path, void* /*access*/) {
+    return path;
+}
+
+bool read_whole_file(std::vector<unsigned char>* out, std::string* error, const std::string& path, void* access) {
+    auto& files = *static_cast<FileAccess*>(access);
+    if (!allowed(files, path)) return false;
+    Expected<std::vector<std::uint8_t>> bytes = read_file(path, files.max_bytes);
+    if (!bytes) {
+        *error = bytes.error().message;
+        return false;
+    }
+    *out = std::move(*bytes);
+    return true;
+}
+
+/// tinygltf's image callback: keeps the encoded bytes, which are decoded when a material uses them.
+/// Bytes of buffer views are not touched: tinygltf has not checked them.
+bool keep_image(tinygltf::Image* image, int index, std::string* /*error*/, std::string* /*warning*/, int /*width*/,
+                int /*height*/, const unsigned char* bytes, int size, void* user) {
+    auto& kept = *static_cast<std::vector<std::vector<std::uint8_t>>*>(user);
+    kept.resize(std::max(kept.size(), static_cast<std::size_t>(index) + 1));
+    if (image->bufferView < 0 && size > 0) kept[static_cast<std::size_t>(index)].assign(bytes, bytes + size);
+    return true;
+}
+
+/// tinygltf's lines as one sentence.
+std::string one_line(std::string text) {
+    while (!text.empty() && text.back() == '\n') text.pop_back();
+    for (std::size_t at = text.find('\n'); at != std::string::npos; at = text.find('\n', at)) text.replace(at, 1, "; ");
+    return text;
+}
+
+std::string unknown_required_extensions(const tinygltf::Model& model) {
+    std::string names;
+    for (const std::string& name : model.extensionsRequired)
+        if (!is_supported_extension(name)) names += (names.empty() ? "" : ", ") + name;
+    return names;
+}
+
+}  // namespace
+
+std::string element_name(const char* kind, std::size_t index, const std::string& name) {
+    return std::string(kind) + " " + std::to_string(index) + (name.empty() ? "" : " (\"" + name + "\")");
+}
+
+bool is_supported_extension(const std::string& name) {
+    return std::find(kSupportedExtensions.begin(), kSupportedExtensions.end(), name) != kSupportedExtensions.end();
+}
+
+Expected<std::vector<std::uint8_t>> read_file(const std::string& path, std::size_t max_bytes) {
+    std::ifstream file(path, std::ios::binary | std::ios::ate);
+    if (!file) return fail(ErrorCode::input_file, "cannot open " + path);
+    const std::streamoff size = file.tellg();
+    if (size < 0) return fail(ErrorCode::input_file, "cannot read " + path);
+    if (static_cast<std::uint64_t>(size) > max_bytes)
+        return fail(ErrorCode::input_file, path + " is larger than " + std::to_string(max_bytes) + " bytes");
+    std::vector<std::uint8_t> bytes(static_cast<std::size_t>(size));
+    file.seekg(0);
+    file.read(reinterpret_cast<char*>(bytes.data()), size);
+    if (!file) return fail(ErrorCode::input_file, "cannot read " + path);
+    return bytes;
+}
+
+Expected<GltfDocument> read_gltf_document(std::span<const std::uint8_t> bytes, const std::string& name,
+                                          const std::string& folder, const GltfLimits& limits) {
+    const auto refuse = [&name](const std::string& what) { return fail(ErrorCode::input_file, name + ": " + what); };
+    if (bytes.size() > limits.file_bytes) return refuse("larger than " + std::to_string(limits.file_bytes) + " bytes");
+    std::string_view json(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    if (is_glb(bytes)) {
+        const Expected<std::string_view> chunk = glb_json(bytes, name);
+        if (!chunk) return tl::unexpected(chunk.error());
+        json = *chunk;
+    }
+    if (json_depth(json) > kMaxJsonDepth) return refuse("the JSON is nested too deeply");
+
+    GltfDocument document;
+    document.name = name;
+    FileAccess access{folder.empty() || folder.back() == '/' ? folder : folder + "/", limits.file_bytes, {}};
+    tinygltf::TinyGLTF parser;
+    parser.SetImageLoader(keep_image, &document.image_bytes);
+    parser.SetFsCallbacks({file_exists, expand_file_path, read_whole_file, nullptr, &access});
+    std::string error;
+    std::string warning;
+    bool parsed = false;
+    try {
+        const auto size = static_cast<unsigned>(bytes.size());
+        parsed = is_glb(bytes)
+                     ? parser.LoadBinaryFromMemory(&document.model, &error, &warning, bytes.data(), size, access.folder)
+                     : parser.LoadASCIIFromString(&document.model, &error, &warning, json.data(), size, access.folder);
+    } catch (const std::exception& exception) {
+        error = exception.what();
+    }
+    // An unknown extension is the better explanation of whatever else went wrong.
+    const std::string unknown = unknown_required_extensions(document.model);
+    if (!unknown.empty()) return refuse("requires the glTF extension " + unknown + ", which Macula does not know");
+    if (!access.refusal.empty()) return refuse(access.refusal);
+    if (!parsed || !error.empty()) return refuse("not valid glTF: " + one_line(error));
+    if (document.model.asset.version.rfind("2.", 0) != 0)
+        return refuse("glTF version " + document.model.asset.version + "; Macula reads 2.0");
+    document.image_bytes.resize(document.model.images.size());
+    return document;
+}
+
+}  // namespace macula
