@@ -7,11 +7,33 @@
 namespace macula {
 namespace {
 
+/// An e2 at which every tile but that of the gaze is at the sparsest level.
+constexpr double kSparsest_deg = 1e-3;
+
+/// Pixels from `first` to `last`, both included; empty if any of last is less.
+struct PixelBox {
+    glm::ivec2 first;
+    glm::ivec2 last;
+
+    [[nodiscard]] bool contains(const glm::ivec2& p) const {
+        return p.x >= first.x && p.y >= first.y && p.x <= last.x && p.y <= last.y;
+    }
+    [[nodiscard]] PixelBox intersection(const PixelBox& other) const {
+        return {glm::max(first, other.first), glm::min(last, other.last)};
+    }
+};
+
+/// The window, seen from the top left pixel of a tile.
+PixelBox window_from(const SamplePlan& plan, const glm::ivec2& tile) {
+    const glm::ivec2 origin_px = plan.origin_px + kTileEdge_px * tile;
+    return {-origin_px, glm::ivec2(plan.width_px, plan.height_px) - 1 - origin_px};
+}
+
 /// Cell of the rank tile that a tile of the plan lies on, 4 y + x.
-int cell_of(const SamplePlan& plan, int tile_x, int tile_y) {
+int cell_of(const SamplePlan& plan, const glm::ivec2& tile) {
     // A tile column begins at 16 (t - 1) - phase mod 16, which the shift by the phase takes to whole cells.
-    const int cell_x = (plan.phase_px.x / kTileEdge_px + tile_x - 1) & (RankTile::kCells - 1);
-    const int cell_y = (plan.phase_px.y / kTileEdge_px + tile_y - 1) & (RankTile::kCells - 1);
+    const int cell_x = (plan.phase_px.x / kTileEdge_px + tile.x - 1) & (RankTile::kCells - 1);
+    const int cell_y = (plan.phase_px.y / kTileEdge_px + tile.y - 1) & (RankTile::kCells - 1);
     return cell_y * RankTile::kCells + cell_x;
 }
 
@@ -23,12 +45,19 @@ void insert(TilePixels& pixels, SamplePosition in_tile) {
     pixels[in_tile.y_px] = static_cast<std::uint16_t>(pixels[in_tile.y_px] | 1U << in_tile.x_px);
 }
 
-bool in_window(const SamplePlan& plan, int x_px, int y_px) {
-    return x_px >= 0 && y_px >= 0 && x_px < plan.width_px && y_px < plan.height_px;
+// The two loops over all samples stand alone so that the compiler vectorises them.
+
+void shift_positions(const SamplePosition* in_tile, int count, const glm::ivec2& origin_px, SamplePosition* to) {
+    const auto x = static_cast<std::int16_t>(origin_px.x);
+    const auto y = static_cast<std::int16_t>(origin_px.y);
+    for (int i = 0; i < count; ++i) {
+        to[i].x_px = static_cast<std::int16_t>(in_tile[i].x_px + x);
+        to[i].y_px = static_cast<std::int16_t>(in_tile[i].y_px + y);
+    }
 }
 
-glm::ivec2 tile_origin_px(const SamplePlan& plan, int tile) {
-    return plan.origin_px + kTileEdge_px * glm::ivec2(tile % plan.tiles_x, tile / plan.tiles_x);
+void shift_addresses(std::span<const std::uint8_t> in_tile, std::uint32_t offset, std::uint32_t* to) {
+    for (std::size_t i = 0; i < in_tile.size(); ++i) to[i] = offset + in_tile[i];
 }
 
 }  // namespace
@@ -68,6 +97,7 @@ void TileSampler::plan(const PlanRequest& request, SamplePlan& plan) {
     plan.offset.resize(tiles + 1);
     plan.incomplete.resize(tiles);
 
+    visible_.cover(grid, cover_);
     choose_levels(grid, request.gaze_eye);
     lay_out_tiles(grid, plan);
     find_partial_tiles(grid, plan);
@@ -86,25 +116,28 @@ void TileSampler::choose_levels(const TileGrid& grid, const glm::vec3& gaze_eye)
         std::fill(levels_.begin(), levels_.end(), std::uint8_t{kFullLevel});
         return;
     }
-    const auto samples = [&](const std::vector<std::uint8_t>& levels) {
-        std::uint32_t total = 0;
-        for (int y = 0; y < grid.tiles.y; ++y) {
-            for (int x = 0; x < grid.tiles.x; ++x) total += kLevelCounts[levels[y * most_tiles_.x + x]];
-        }
-        return total;
-    };
-    capped_ = levels_;
-    level_map_->update(grid, gaze_eye, capped_.data(), most_tiles_.x);
+    candidate_ = levels_;
+    level_map_->update(grid, gaze_eye, candidate_.data(), most_tiles_.x);
     if (options_.max_samples > 0) {
         AcuityLaw law = *law_;
-        const auto least = static_cast<std::uint32_t>(grid.tiles.x * grid.tiles.y * kLevelCounts[1]);
-        while (samples(capped_) > std::max(options_.max_samples, least) && law.e2_deg > 1e-3) {
+        while (visible_samples(grid, candidate_) > options_.max_samples && law.e2_deg > kSparsest_deg) {
             law.e2_deg *= 0.97;
-            capped_ = levels_;
-            LevelMap(display_, eye_, law, options_.hysteresis).update(grid, gaze_eye, capped_.data(), most_tiles_.x);
+            candidate_ = levels_;
+            LevelMap(display_, eye_, law, options_.hysteresis).update(grid, gaze_eye, candidate_.data(), most_tiles_.x);
         }
     }
-    levels_.swap(capped_);
+    levels_.swap(candidate_);
+}
+
+/// Upper bound of the rays inside the window.
+std::uint32_t TileSampler::visible_samples(const TileGrid& grid, const std::vector<std::uint8_t>& levels) const {
+    std::uint32_t total = 0;
+    for (int y = 0; y < grid.tiles.y; ++y) {
+        for (int x = 0; x < grid.tiles.x; ++x) {
+            if (cover_[y * grid.tiles.x + x] != Cover::none) total += kLevelCounts[levels[y * most_tiles_.x + x]];
+        }
+    }
+    return total;
 }
 
 void TileSampler::lay_out_tiles(const TileGrid& grid, SamplePlan& plan) {
@@ -128,17 +161,17 @@ void TileSampler::find_partial_tiles(const TileGrid& grid, SamplePlan& plan) {
     for (int x = 0; x < plan.tiles_x; ++x) add(x, {});
     for (int y = 0; y < grid.tiles.y; ++y) {
         const int first = (y + 1) * plan.tiles_x;
-        visible_.cover_row(grid, y, any_visible_, all_visible_);
         add(first, {});
         for (int x = 0; x < grid.tiles.x; ++x) {
-            if (all_visible_[x] == 0xFFFF) continue;
+            const Cover cover = cover_[y * grid.tiles.x + x];
+            if (cover == Cover::all) continue;
             const int tile = first + 1 + x;
-            if (any_visible_[x] == 0) {
+            if (cover == Cover::none) {
                 plan.level[tile] = 0;
                 continue;
             }
-            const glm::ivec2 origin = tile_origin_px(plan, tile);
-            add(tile, visible_.tile(origin.x, origin.y));
+            const glm::ivec2 origin_px = grid.origin_px + kTileEdge_px * glm::ivec2(x, y);
+            add(tile, visible_.tile(origin_px.x, origin_px.y));
         }
         add(first + plan.tiles_x - 1, {});
     }
@@ -152,56 +185,44 @@ void TileSampler::find_partial_tiles(const TileGrid& grid, SamplePlan& plan) {
     }
 }
 
+/// Adds the samples that pixels inside the window may interpolate: those of the tile itself and of its neighbours,
+/// each by its own level. The bounding box of such pixels stands for the pixels.
 void TileSampler::add_needed_beyond_window(const SamplePlan& plan, PartialTile& partial) const {
-    const glm::ivec2 origin = tile_origin_px(plan, partial.tile);
-    const glm::ivec2 end = origin + kTileEdge_px;
-    if (in_window(plan, origin.x, origin.y) && in_window(plan, end.x - 1, end.y - 1)) return;
-    const int cell = cell_of(plan, partial.tile % plan.tiles_x, partial.tile / plan.tiles_x);
+    const glm::ivec2 at(partial.tile % plan.tiles_x, partial.tile / plan.tiles_x);
+    const PixelBox window = window_from(plan, at);
+    if (window.contains({0, 0}) && window.contains(glm::ivec2(kTileEdge_px - 1))) return;
+    const int count = kLevelCounts[plan.level[partial.tile]];
+    const int cell = cell_of(plan, at);
     const auto& by_rank = order_.positions(1, cell);
-    for (int rank = 0; rank < kLevelCounts[plan.level[partial.tile]]; ++rank) {
-        const SamplePosition in_tile = by_rank[rank];
-        const SamplePosition sample{static_cast<std::int16_t>(origin.x + in_tile.x_px),
-                                    static_cast<std::int16_t>(origin.y + in_tile.y_px)};
-        if (!in_window(plan, sample.x_px, sample.y_px) && needed_inside(plan, partial.tile, rank, sample))
-            insert(partial.traced, in_tile);
-    }
-}
-
-/// Whether a pixel inside the window may interpolate the sample: one of a tile nearby, by that tile's level.
-bool TileSampler::needed_inside(const SamplePlan& plan, int tile, int rank, SamplePosition sample) const {
-    const glm::ivec2 at(tile % plan.tiles_x, tile / plan.tiles_x);
-    const int cell = cell_of(plan, at.x, at.y);
     // Guard tiles have no pixels inside.
     const glm::ivec2 first = glm::max(at - 1, glm::ivec2(1));
     const glm::ivec2 last = glm::min(at + 1, glm::ivec2(plan.tiles_x - 2, plan.tiles_y - 2));
     for (int y = first.y; y <= last.y; ++y) {
         for (int x = first.x; x <= last.x; ++x) {
             const int level = plan.level[y * plan.tiles_x + x];
-            if (level == 0 || level == kFullLevel || rank >= kLevelCounts[level]) continue;
-            const SampleReach::Box& box = reach_.box(level, cell, rank);
-            const glm::ivec2 origin = plan.origin_px + kTileEdge_px * glm::ivec2(x, y);
-            const int left = std::max({sample.x_px + box.left, origin.x, 0});
-            const int right = std::min({sample.x_px + box.right, origin.x + kTileEdge_px - 1, plan.width_px - 1});
-            const int top = std::max({sample.y_px + box.top, origin.y, 0});
-            const int bottom = std::min({sample.y_px + box.bottom, origin.y + kTileEdge_px - 1, plan.height_px - 1});
-            if (left <= right && top <= bottom) return true;
+            if (level == 0 || level == kFullLevel) continue;  // these interpolate nothing
+            const glm::ivec2 corner = kTileEdge_px * (glm::ivec2(x, y) - at);
+            const PixelBox users = window.intersection({corner, corner + kTileEdge_px - 1});
+            for (int rank = 0; rank < std::min<int>(count, kLevelCounts[level]); ++rank) {
+                const SampleReach::Box& reach = reach_.box(level, cell, rank);
+                const glm::ivec2 sample(by_rank[rank].x_px, by_rank[rank].y_px);
+                const bool used = sample.x + reach.left <= users.last.x && sample.x + reach.right >= users.first.x &&
+                                  sample.y + reach.top <= users.last.y && sample.y + reach.bottom >= users.first.y;
+                if (used && !window.contains(sample)) insert(partial.traced, by_rank[rank]);
+            }
         }
     }
-    return false;
 }
 
 void TileSampler::write_positions(SamplePlan& plan) const {
     plan.position.resize(plan.address_count());
-    for (int tile = 0; tile < plan.tiles_x * plan.tiles_y; ++tile) {
-        const int level = plan.level[tile];
-        const auto& from = order_.positions(level, cell_of(plan, tile % plan.tiles_x, tile / plan.tiles_x));
-        SamplePosition* to = plan.position.data() + plan.offset[tile];
-        const glm::ivec2 origin = tile_origin_px(plan, tile);
-        const auto x = static_cast<std::int16_t>(origin.x);
-        const auto y = static_cast<std::int16_t>(origin.y);
-        for (int i = 0; i < kLevelCounts[level]; ++i) {
-            to[i].x_px = static_cast<std::int16_t>(from[i].x_px + x);
-            to[i].y_px = static_cast<std::int16_t>(from[i].y_px + y);
+    for (int y = 0; y < plan.tiles_y; ++y) {
+        for (int x = 0; x < plan.tiles_x; ++x) {
+            const int tile = y * plan.tiles_x + x;
+            const int level = plan.level[tile];
+            const auto& in_tile = order_.positions(level, cell_of(plan, {x, y}));
+            shift_positions(in_tile.data(), kLevelCounts[level], plan.origin_px + kTileEdge_px * glm::ivec2(x, y),
+                            plan.position.data() + plan.offset[tile]);
         }
     }
 }
@@ -209,35 +230,36 @@ void TileSampler::write_positions(SamplePlan& plan) const {
 void TileSampler::write_trace_order(SamplePlan& plan) const {
     plan.trace_order.resize(plan.address_count());
     plan.untraced.clear();
-    plan.traced_in_window = 0;
-    std::uint32_t* next = plan.trace_order.data();
+    std::fill(plan.incomplete.begin(), plan.incomplete.end(), std::uint8_t{0});
+    std::uint32_t traced = 0;
+    std::uint32_t traced_outside = 0;
     for (const glm::ivec2& at : morton_tiles_) {
         if (at.x >= plan.tiles_x || at.y >= plan.tiles_y) continue;
         const int tile = at.y * plan.tiles_x + at.x;
         const int level = plan.level[tile];
-        const int cell = cell_of(plan, at.x, at.y);
+        const int cell = cell_of(plan, at);
         const std::uint32_t offset = plan.offset[tile];
         const auto order = order_.trace_order(level, cell);
-        plan.incomplete[tile] = 0;
         if (partial_of_[tile] < 0) {
-            for (const std::uint8_t address : order) *next++ = offset + address;
-            plan.traced_in_window += kLevelCounts[level];
+            shift_addresses(order, offset, plan.trace_order.data() + traced);
+            traced += kLevelCounts[level];
             continue;
         }
-        const TilePixels& traced = partial_tiles_[partial_of_[tile]].traced;
-        const auto& positions = order_.positions(level, cell);
+        const TilePixels& traced_pixels = partial_tiles_[partial_of_[tile]].traced;
+        const PixelBox window = window_from(plan, at);
+        const auto& in_tile = order_.positions(level, cell);
         for (const std::uint8_t address : order) {
-            if (has(traced, positions[address])) {
-                *next++ = offset + address;
-                const SamplePosition& p = plan.position[offset + address];
-                if (in_window(plan, p.x_px, p.y_px)) ++plan.traced_in_window;
+            if (has(traced_pixels, in_tile[address])) {
+                plan.trace_order[traced++] = offset + address;
+                if (!window.contains({in_tile[address].x_px, in_tile[address].y_px})) ++traced_outside;
             } else {
                 plan.untraced.push_back(offset + address);
                 plan.incomplete[tile] = 1;
             }
         }
     }
-    plan.trace_order.resize(static_cast<std::size_t>(next - plan.trace_order.data()));
+    plan.trace_order.resize(traced);
+    plan.traced_in_window = traced - traced_outside;
 }
 
 bool is_traced(const SamplePlan& plan, const RankTile& rank_tile, int x_px, int y_px) {

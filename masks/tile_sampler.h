@@ -19,8 +19,8 @@ namespace macula {
 struct TileSamplerOptions {
     /// A tile drops to a sparser level only when the need falls below this part of the level boundary; 1: at once.
     float hysteresis = 0.8F;
-    /// Most samples of a plan, 0 for any number. A plan that would exceed it follows a law with a smaller e2, down
-    /// to the sparsest level everywhere. Does not bind a sampler without a law.
+    /// Most rays inside the window, 0 for any number; the few guard samples come on top. A plan that would exceed
+    /// it follows a law with a smaller e2, down to the sparsest level everywhere. No bound on a sampler without law.
     std::uint32_t max_samples = 0;
 };
 
@@ -45,10 +45,10 @@ private:
     };
 
     void choose_levels(const TileGrid& grid, const glm::vec3& gaze_eye);
+    [[nodiscard]] std::uint32_t visible_samples(const TileGrid& grid, const std::vector<std::uint8_t>& levels) const;
     void lay_out_tiles(const TileGrid& grid, SamplePlan& plan);
     void find_partial_tiles(const TileGrid& grid, SamplePlan& plan);
     void add_needed_beyond_window(const SamplePlan& plan, PartialTile& partial) const;
-    [[nodiscard]] bool needed_inside(const SamplePlan& plan, int tile, int rank, SamplePosition sample) const;
     void write_positions(SamplePlan& plan) const;
     void write_trace_order(SamplePlan& plan) const;
 
@@ -64,9 +64,8 @@ private:
     glm::ivec2 most_tiles_;                 ///< of any phase, without the guard ring
     std::vector<glm::ivec2> morton_tiles_;  ///< of any phase, with the guard ring
     std::vector<std::uint8_t> levels_;      ///< by the law, rows most_tiles_.x apart; state from frame to frame
-    std::vector<std::uint8_t> capped_;      ///< scratch
-    std::vector<std::uint16_t> any_visible_;
-    std::vector<std::uint16_t> all_visible_;
+    std::vector<std::uint8_t> candidate_;   ///< scratch
+    std::vector<Cover> cover_;              ///< per tile of the grid
     std::vector<PartialTile> partial_tiles_;
     std::vector<std::int32_t> partial_of_;  ///< per tile of the plan: index into partial_tiles_, or -1
 };

@@ -18,27 +18,32 @@ VisibleArea::VisibleArea(const Display& display, Eye eye)
     }
 }
 
-void VisibleArea::cover_row(const TileGrid& grid, int tile_row, std::vector<std::uint16_t>& any,
-                            std::vector<std::uint16_t>& all) const {
+void VisibleArea::cover(const TileGrid& grid, std::vector<Cover>& cover) const {
     const int columns = grid.tiles.x;
-    any.assign(static_cast<std::size_t>(columns), 0);
-    all.assign(static_cast<std::size_t>(columns), 0xFFFF);
+    cover.resize(static_cast<std::size_t>(columns) * grid.tiles.y);
     const int first_word = (grid.origin_px.x + kTileEdge_px) / kTileEdge_px;
     const int shift = (grid.origin_px.x + kTileEdge_px) % kTileEdge_px;
-    const int top_px = grid.origin_px.y + tile_row * kTileEdge_px;
-    for (int y = top_px; y < top_px + kTileEdge_px; ++y) {
-        if (y < 0 || y >= height_px_) {
-            std::fill(all.begin(), all.end(), std::uint16_t{0});
-            continue;
+    std::vector<std::uint16_t> any(static_cast<std::size_t>(columns));
+    std::vector<std::uint16_t> all(static_cast<std::size_t>(columns));
+    for (int tile_row = 0; tile_row < grid.tiles.y; ++tile_row) {
+        const int top_px = grid.origin_px.y + tile_row * kTileEdge_px;
+        const bool cut = top_px < 0 || top_px + kTileEdge_px > height_px_;
+        std::fill(any.begin(), any.end(), std::uint16_t{0});
+        std::fill(all.begin(), all.end(), static_cast<std::uint16_t>(cut ? 0 : 0xFFFF));
+        for (int y = std::max(top_px, 0); y < std::min(top_px + kTileEdge_px, height_px_); ++y) {
+            const std::uint16_t* words = row(y) + first_word;
+            std::uint16_t* any_out = any.data();
+            std::uint16_t* all_out = all.data();
+            for (int i = 0; i < columns; ++i) {
+                const auto pixels =
+                    static_cast<std::uint16_t>(words[i] >> shift | words[i + 1] << (kTileEdge_px - shift));
+                any_out[i] |= pixels;
+                all_out[i] &= pixels;
+            }
         }
-        const std::uint16_t* words = row(y) + first_word;
-        std::uint16_t* any_out = any.data();
-        std::uint16_t* all_out = all.data();
-        for (int i = 0; i < columns; ++i) {
-            const auto pixels = static_cast<std::uint16_t>(words[i] >> shift | words[i + 1] << (kTileEdge_px - shift));
-            any_out[i] |= pixels;
-            all_out[i] &= pixels;
-        }
+        Cover* out = &cover[static_cast<std::size_t>(tile_row) * columns];
+        for (int i = 0; i < columns; ++i)
+            out[i] = all[i] == 0xFFFF ? Cover::all : any[i] != 0 ? Cover::some : Cover::none;
     }
 }
 

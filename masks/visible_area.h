@@ -13,15 +13,15 @@ namespace macula {
 /// Set of pixels of one tile: a word per row, bit x for column x.
 using TilePixels = std::array<std::uint16_t, kTileEdge_px>;
 
+enum class Cover : std::uint8_t { none, some, all };
+
 /// The pixels of one eye's window that the lens shows, asked for by tiles.
 class VisibleArea {
 public:
     VisibleArea(const Display& display, Eye eye);
 
-    /// For each tile of a row of the grid: words that are 0 if no pixel of the tile is inside the window and
-    /// visible, and 0xFFFF if all are.
-    void cover_row(const TileGrid& grid, int tile_row, std::vector<std::uint16_t>& any,
-                   std::vector<std::uint16_t>& all) const;
+    /// For each tile of the grid, row-major: how many of its pixels are inside the window and visible.
+    void cover(const TileGrid& grid, std::vector<Cover>& cover) const;
 
     /// Pixels inside the window and visible of the tile whose top left pixel is given; x at least -16.
     [[nodiscard]] TilePixels tile(int x_px, int y_px) const;
