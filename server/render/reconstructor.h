@@ -44,9 +44,9 @@ std::unique_ptr<Reconstructor> make_reference_reconstructor(std::shared_ptr<cons
 /// fast path where GL is software.
 std::unique_ptr<Reconstructor> make_cpu_reconstructor(std::shared_ptr<const TileTables> tables);
 
-/// The same kernel as a GL compute program. The context must outlive the reconstructor and is made current on
-/// the calling thread during calls. Errors: `graphics`.
-Expected<std::unique_ptr<Reconstructor>> make_gl_reconstructor(GlContext& context,
+/// The same kernel as a GL compute program. The context is current on the calling thread during calls only.
+/// Errors: `graphics`.
+Expected<std::unique_ptr<Reconstructor>> make_gl_reconstructor(std::unique_ptr<GlContext> context,
                                                                std::shared_ptr<const TileTables> tables);
 
 }  // namespace macula
