@@ -1,0 +1,85 @@
+#include "server/options.h"
+
+#include <charconv>
+#include <iostream>
+#include <map>
+
+#include <CLI/CLI.hpp>
+
+namespace macula {
+
+std::variant<Options, int> parse_options(int argc, char** argv) {
+    Options options;
+    bool print_config = false;
+    CLI::App app{"macula-server: ray-traces foveated stereo frames for the gaze that a client sends.", "macula-server"};
+    app.set_version_flag("--version", "macula-server " MACULA_VERSION);
+    app.set_config("--config", "", "TOML file with these options; the command line wins over it");
+    app.allow_config_extras(CLI::config_extras_mode::error);
+    app.add_flag("--print-config", print_config, "Print the options in effect as TOML, and end")->configurable(false);
+
+    app.add_option("--scene", options.scene, "bunny-box, or a .gltf or .glb file")->capture_default_str();
+    app.add_option("--listen", options.listen, "ADDRESS:PORT, [IPV6]:PORT, or *:PORT for every address; port 0: any")
+        ->capture_default_str();
+    app.add_option(
+           "--sampling", options.sampling,
+           "Share of pixels to trace for clients without a wish of their own: full, or percent (54, 41, 27, 18)")
+        ->capture_default_str();
+    app.add_option("--context", options.context, "GL context: auto, egl (a GPU), surfaceless or osmesa")
+        ->check(CLI::IsMember({"auto", "egl", "surfaceless", "osmesa"}))
+        ->capture_default_str();
+    app.add_option("--reconstruct-on", options.reconstruct_on, "gl, cpu, or auto: the faster one, measured at start")
+        ->check(CLI::IsMember({"auto", "gl", "cpu"}))
+        ->capture_default_str();
+    app.add_option("--encoder", options.encoder, "H.264 encoder of libavcodec: libx264, h264_nvenc, h264_vaapi, ...")
+        ->capture_default_str();
+    app.add_option("--bit-rate", options.bit_rate_bps, "Of each client's video, in bit/s, with suffix k or M")
+        ->transform(CLI::AsNumberWithUnit(std::map<std::string, std::int64_t>{{"k", 1'000}, {"M", 1'000'000}}))
+        ->check(CLI::Range(std::int64_t{100'000}, std::int64_t{1'000'000'000}))
+        ->capture_default_str();
+    app.add_option("--state", options.state,
+                   "Folder of key, certificate and token (default: $XDG_STATE_HOME/macula or ~/.local/state/macula)");
+    app.add_option("--max-clients", options.max_clients, "Clients served at once")
+        ->check(CLI::Range(1, 64))
+        ->capture_default_str();
+    app.add_option("--threads", options.threads, "Threads that trace and reconstruct; 0: one for each processor")
+        ->check(CLI::Range(0, 1024))
+        ->capture_default_str();
+    app.add_option("--log-level", options.log_level, "debug, info, warning or error")
+        ->check(CLI::IsMember({"debug", "info", "warning", "error"}))
+        ->capture_default_str();
+
+    try {
+        app.parse(argc, argv);
+        if (print_config) {
+            std::cout << app.config_to_str(true, true);
+            return 0;
+        }
+    } catch (const CLI::Success& success) {  // --help, --version
+        return app.exit(success);
+    } catch (const CLI::Error& error) {
+        std::cerr << "macula-server: " << error.what() << "; see macula-server --help\n";
+        return static_cast<int>(ErrorCode::option);
+    }
+    return options;
+}
+
+Expected<Endpoint> parse_endpoint(const std::string& text) {
+    const std::string advice =
+        "--listen " + text + ": expected ADDRESS:PORT, [IPV6]:PORT or *:PORT, for example 127.0.0.1:7470";
+    const std::size_t colon = text.rfind(':');
+    if (colon == std::string::npos) return fail(ErrorCode::option, advice);
+    Endpoint endpoint;
+    const char* end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data() + colon + 1, end, endpoint.port);
+    if (error != std::errc() || stop != end) return fail(ErrorCode::option, advice);
+
+    std::string address = text.substr(0, colon);
+    const bool bracketed = address.size() > 2 && address.front() == '[' && address.back() == ']';
+    if (bracketed) address = address.substr(1, address.size() - 2);
+    if (address.empty() || bracketed != (address.find(':') != std::string::npos))
+        return fail(ErrorCode::option, advice);
+    if (address != "*") endpoint.address = address;
+    return endpoint;
+}
+
+}  // namespace macula

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "masks/display.h"
+#include "masks/sample_plan.h"
+#include "protocol/base/image.h"
+#include "protocol/message/message.h"
+#include "server/render/reconstructor.h"
+#include "server/render/tracer.h"
+#include "server/service/prediction.h"
+
+namespace macula {
+
+/// A rendered stereo frame before coding: both eyes side by side, left eye left, and a Frame message that says
+/// everything that made it, still without id and streams.
+struct Picture {
+    Frame frame;
+    ColorImage color;
+    InverseDepthImage inverse_depth;
+};
+
+/// Makes the pictures of one session: predicts, plans, traces, reconstructs. One thread at a time.
+class FrameMaker {
+public:
+    /// What a session renders with. The tracer is shared with other sessions; the rest is its own.
+    struct Parts {
+        std::shared_ptr<const Tracer> tracer;
+        PerEye<std::unique_ptr<Sampler>> samplers;
+        std::unique_ptr<Reconstructor> reconstructor;
+    };
+
+    FrameMaker(Display display, const Pose& world_from_start, float near_m, Parts parts);
+
+    /// Renders what the Track asks for; `track_received_ns` is this machine's time. `picture` is overwritten, its
+    /// memory reused. Errors: `graphics` if the reconstructor's context is lost.
+    Expected<void> make(const Track& track, std::int64_t track_received_ns, Picture& picture);
+
+private:
+    Display display_;
+    Pose world_from_start_;
+    float near_m_;
+    Parts parts_;
+    PerEye<GazeHold> gaze_;
+    PerEye<SamplePlan> plans_;
+    PerEye<Samples> samples_;
+    std::uint64_t frame_index_ = 0;
+};
+
+/// What the client must know of a plan: its levels without the guard ring, and its phase.
+EyeSamplingMessage sampling_message(const SamplePlan& plan);
+
+}  // namespace macula

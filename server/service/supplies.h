@@ -1,0 +1,38 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "masks/display.h"
+#include "masks/rank_tile.h"
+#include "masks/sample_plan.h"
+#include "protocol/base/error.h"
+#include "protocol/codec/codec.h"
+#include "protocol/codec/depth_codec.h"
+#include "scenes/scene.h"
+#include "server/render/reconstructor.h"
+#include "server/render/tracer.h"
+
+namespace macula {
+
+/// What the sessions of a server share, and how they get what is their own. The functions may be called from
+/// several threads at once.
+struct Supplies {
+    std::shared_ptr<const Scene> scene;
+    std::shared_ptr<const Tracer> tracer;
+    std::shared_ptr<const RankTile> rank_tile;
+    std::string renderer;          ///< tracer and reconstruction, for the client's log
+    std::string codec = "h264";    ///< protocol name of what make_color_encoder codes ("h264")
+    std::string default_sampling;  ///< preset for clients that leave the choice to the server
+
+    /// Errors: `option` for an unknown preset.
+    std::function<Expected<std::unique_ptr<Sampler>>(const Display&, Eye, const std::string& preset)> make_sampler;
+    std::function<Expected<std::unique_ptr<Reconstructor>>()> make_reconstructor;
+    std::function<Expected<std::unique_ptr<VideoEncoder>>(int width_px, int height_px, double frame_rate_hz)>
+        make_color_encoder;
+    std::function<Expected<std::unique_ptr<DepthEncoder>>(int width_px, int height_px, double frame_rate_hz)>
+        make_depth_encoder;
+};
+
+}  // namespace macula

@@ -1,0 +1,8 @@
+macula_test(service_parts_test
+    SOURCES unit/prediction_test.cpp unit/pacing_test.cpp unit/session_statistics_test.cpp unit/handshake_test.cpp
+    LINK macula_service
+    LABELS fast)
+macula_test(session_test
+    SOURCES unit/session_test.cpp
+    LINK macula_service spdlog::spdlog
+    LABELS fast)
