@@ -121,20 +121,24 @@ Expected<void> TlsConnection::send(std::span<const std::byte> body, milliseconds
         return fail(ErrorCode::protocol, "a message of " + std::to_string(body.size()) + " bytes is larger than the " +
                                              std::to_string(limits_.send_bytes) + " that " + peer_ + " accepts");
     }
-    const std::lock_guard turn(send_turn_);
+    const auto deadline = steady_clock::now() + timeout;
     std::unique_lock lock(mutex_);
-    if (failure_) return tl::unexpected(*failure_);
-    // A copy, because a write that is given up may still be under way when this function has returned. One
-    // buffer for length and body, because each buffer becomes a record of its own.
-    outgoing_.clear();
-    for (unsigned shift = 0; shift < 32; shift += 8) {
-        outgoing_.push_back(static_cast<std::byte>(body.size() >> shift & 0xffU));
+    if (changed_.wait_until(lock, deadline, [this] { return !sending_ || failure_; }) && !failure_) {
+        sending_ = true;
+        written_ = false;
+        // A copy, because a write that is given up may still be under way when this function has returned. One
+        // buffer for length and body, because each buffer becomes a record of its own.
+        outgoing_.clear();
+        for (unsigned shift = 0; shift < 32; shift += 8) {
+            outgoing_.push_back(static_cast<std::byte>(body.size() >> shift & 0xffU));
+        }
+        outgoing_.insert(outgoing_.end(), body.begin(), body.end());
+        asio::post(io_, [self = shared_from_this()] { self->write(); });
+        changed_.wait_until(lock, deadline, [this] { return written_ || failure_; });
+        sending_ = false;
+        changed_.notify_all();
+        if (written_) return {};
     }
-    outgoing_.insert(outgoing_.end(), body.begin(), body.end());
-    sending_ = true;
-    asio::post(io_, [self = shared_from_this()] { self->write(); });
-    changed_.wait_for(lock, timeout, [this] { return !sending_ || failure_; });
-    if (!sending_) return {};
     if (!failure_) {
         failure_ = Error{ErrorCode::timeout,
                          peer_ + " did not read a message within " + std::to_string(timeout.count()) + " ms"};
@@ -150,7 +154,7 @@ void TlsConnection::write() {
         if (error) return self->break_off(self->describe(error, true));
         {
             const std::lock_guard lock(self->mutex_);
-            self->sending_ = false;
+            self->written_ = true;
         }
         self->changed_.notify_all();
     });
@@ -174,7 +178,7 @@ void TlsConnection::linger() {
     bool half_sent = false;
     {
         const std::lock_guard lock(mutex_);
-        half_sent = sending_;
+        half_sent = !written_;
     }
     if (half_sent) return abort();
     AsioError ignored;

@@ -77,12 +77,12 @@ private:
     bool reading_ = false;
     bool lingering_ = false;
 
-    std::mutex send_turn_;  ///< held by the one thread that sends
-    std::mutex mutex_;      ///< guards what follows; outgoing_ belongs to the I/O thread while sending_
+    std::mutex mutex_;  ///< guards what follows, except outgoing_ while it is being written
     std::condition_variable changed_;
     std::optional<Bytes> received_;
     std::optional<Error> failure_;  ///< why the channel has ended; set once
-    bool sending_ = false;
+    bool sending_ = false;          ///< a thread is in send()
+    bool written_ = true;           ///< its message is in the system's hands
     Bytes outgoing_;
 };
 
