@@ -10,6 +10,9 @@ namespace {
 /// An e2 at which every tile but that of the gaze is at the sparsest level.
 constexpr double kSparsest_deg = 1e-3;
 
+/// Rays that a tracer takes at a time.
+constexpr int kPacket = 16;
+
 /// Pixels from `first` to `last`, both included; empty if any of last is less.
 struct PixelBox {
     glm::ivec2 first;
@@ -227,39 +230,51 @@ void TileSampler::write_positions(SamplePlan& plan) const {
     }
 }
 
+/// Tiles of whole packets come first and stay aligned to packets, so that those of a full tile are 4x4 blocks; the
+/// others follow, where sparse tiles share packets with their Morton neighbours.
 void TileSampler::write_trace_order(SamplePlan& plan) const {
     plan.trace_order.resize(plan.address_count());
     plan.untraced.clear();
+    plan.traced_in_window = 0;
     std::fill(plan.incomplete.begin(), plan.incomplete.end(), std::uint8_t{0});
-    std::uint32_t traced = 0;
-    std::uint32_t traced_outside = 0;
-    for (const glm::ivec2& at : morton_tiles_) {
-        if (at.x >= plan.tiles_x || at.y >= plan.tiles_y) continue;
-        const int tile = at.y * plan.tiles_x + at.x;
-        const int level = plan.level[tile];
-        const int cell = cell_of(plan, at);
-        const std::uint32_t offset = plan.offset[tile];
-        const auto order = order_.trace_order(level, cell);
-        if (partial_of_[tile] < 0) {
-            shift_addresses(order, offset, plan.trace_order.data() + traced);
-            traced += kLevelCounts[level];
-            continue;
-        }
-        const TilePixels& traced_pixels = partial_tiles_[partial_of_[tile]].traced;
-        const PixelBox window = window_from(plan, at);
-        const auto& in_tile = order_.positions(level, cell);
-        for (const std::uint8_t address : order) {
-            if (has(traced_pixels, in_tile[address])) {
-                plan.trace_order[traced++] = offset + address;
-                if (!window.contains({in_tile[address].x_px, in_tile[address].y_px})) ++traced_outside;
-            } else {
-                plan.untraced.push_back(offset + address);
-                plan.incomplete[tile] = 1;
+    std::uint32_t* next = plan.trace_order.data();
+    for (const bool whole_packets : {true, false}) {
+        for (const glm::ivec2& at : morton_tiles_) {
+            if (at.x >= plan.tiles_x || at.y >= plan.tiles_y) continue;
+            const int tile = at.y * plan.tiles_x + at.x;
+            const int count = kLevelCounts[plan.level[tile]];
+            const bool partial = partial_of_[tile] >= 0;
+            if (whole_packets != (!partial && count % kPacket == 0)) continue;
+            if (partial) {
+                next = write_partial_tile(plan, at, next);
+                continue;
             }
+            shift_addresses(order_.trace_order(plan.level[tile], cell_of(plan, at)), plan.offset[tile], next);
+            next += count;
+            plan.traced_in_window += static_cast<std::uint32_t>(count);
         }
     }
-    plan.trace_order.resize(traced);
-    plan.traced_in_window = traced - traced_outside;
+    plan.trace_order.resize(static_cast<std::size_t>(next - plan.trace_order.data()));
+}
+
+std::uint32_t* TileSampler::write_partial_tile(SamplePlan& plan, const glm::ivec2& at, std::uint32_t* next) const {
+    const int tile = at.y * plan.tiles_x + at.x;
+    const int level = plan.level[tile];
+    const int cell = cell_of(plan, at);
+    const TilePixels& traced = partial_tiles_[partial_of_[tile]].traced;
+    const PixelBox window = window_from(plan, at);
+    for (const std::uint8_t in_tile : order_.trace_order(level, cell)) {
+        const SamplePosition position = order_.positions(level, cell)[in_tile];
+        const std::uint32_t address = plan.offset[tile] + in_tile;
+        if (has(traced, position)) {
+            *next++ = address;
+            if (window.contains({position.x_px, position.y_px})) ++plan.traced_in_window;
+        } else {
+            plan.untraced.push_back(address);
+            plan.incomplete[tile] = 1;
+        }
+    }
+    return next;
 }
 
 bool is_traced(const SamplePlan& plan, const RankTile& rank_tile, int x_px, int y_px) {

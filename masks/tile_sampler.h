@@ -51,6 +51,7 @@ private:
     void add_needed_beyond_window(const SamplePlan& plan, PartialTile& partial) const;
     void write_positions(SamplePlan& plan) const;
     void write_trace_order(SamplePlan& plan) const;
+    std::uint32_t* write_partial_tile(SamplePlan& plan, const glm::ivec2& at, std::uint32_t* next) const;
 
     Display display_;
     Eye eye_;
