@@ -1,5 +1,12 @@
 add_library(macula_test_pictures STATIC support/pictures.cpp)
 target_link_libraries(macula_test_pictures PUBLIC macula_base PRIVATE PkgConfig::OIIO)
+
+macula_test(kernels_test
+    SOURCES unit/brdf_kernel_test.cpp unit/camera_kernel_test.cpp unit/color_kernel_test.cpp
+            unit/light_kernel_test.cpp unit/texture_kernel_test.cpp
+    LINK macula_kernels
+    LABELS fast)
+
 # Records rays with the tracer's own shading and times Embree alone on them.
 macula_bench(trace_bench SOURCES bench/trace_bench.cpp
     LINK macula_tracer macula_kernels macula_masks macula_scenes embree TBB::tbb)

@@ -28,7 +28,7 @@ KERNEL uint srgb8_from_linear(vec3 radiance) {
     uint r = byte_from_unit(srgb_from_linear(radiance.x));
     uint g = byte_from_unit(srgb_from_linear(radiance.y));
     uint b = byte_from_unit(srgb_from_linear(radiance.z));
-    return r | (g << 8) | (b << 16) | 0xFF000000u;
+    return r | (g << 8) | (b << 16) | 0xFF000000U;
 }
 
 KERNEL_END
