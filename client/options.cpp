@@ -1,0 +1,99 @@
+#include "client/options.h"
+
+#include <charconv>
+#include <iostream>
+
+#include <CLI/CLI.hpp>
+
+#include "protocol/transport/tls.h"
+
+namespace macula {
+
+std::variant<ClientOptions, int> parse_client_options(int argc, char** argv) {
+    ClientOptions options;
+    bool print_config = false;
+    CLI::App app{"macula-client: sends head and gaze to a server and shows the frames that come back.",
+                 "macula-client"};
+    app.set_version_flag("--version", "macula-client " MACULA_VERSION);
+    app.set_config("--config", "", "TOML file with these options; the command line wins over it");
+    app.allow_config_extras(CLI::config_extras_mode::error);
+    app.add_flag("--print-config", print_config, "Print the options in effect as TOML, and end")->configurable(false);
+
+    app.add_option("--connect", options.connect, "Server: HOST, HOST:PORT or [IPV6]:PORT")->capture_default_str();
+    app.add_option("--gaze", options.gaze,
+                   "Head and eyes: sim:SEED, replay:FILE, or replay:FILE?loop (client/device/RECORDING.md)")
+        ->capture_default_str();
+    app.add_option("--display", options.displays,
+                   "null, png:FOLDER, png:FOLDER?every=N or mp4:FILE; may be given several times")
+        ->capture_default_str();
+    app.add_option("--headset", options.headset, "Display geometry: vive, desktop, or a file (masks/display.md)")
+        ->capture_default_str();
+    app.add_option("--sampling", options.sampling,
+                   "Share of pixels to trace: full, or percent (54, 41, 27, 18); empty: the server's choice")
+        ->capture_default_str();
+    app.add_option("--token", options.token, "Secret that the server asks for (default: from the state folder)");
+    app.add_option("--fingerprint", options.fingerprint,
+                   "Of the server's certificate, as the server prints it (default: from the state folder)");
+    app.add_option("--state", options.state,
+                   "The server's state folder, on the same machine (default: $XDG_STATE_HOME/macula or "
+                   "~/.local/state/macula)");
+    app.add_option("--seconds", options.seconds, "End after this time; 0: with the recording, or never")
+        ->check(CLI::Range(0.0, 1e6))
+        ->capture_default_str();
+    app.add_option("--frames", options.frames, "End after this many frames; 0: no limit")
+        ->check(CLI::Range(std::int64_t{0}, std::int64_t{1} << 40))
+        ->capture_default_str();
+    app.add_option("--stats", options.stats, "CSV file that gets one row a frame");
+    app.add_option("--summary", options.summary, "File that gets the summary, as lines of name=value");
+    app.add_option("--record", options.record, "File that gets the head and eye movement (client/device/RECORDING.md)");
+    app.add_option("--taa-on", options.taa_on,
+                   "Temporal anti-aliasing on gl or cpu, off, or auto: the faster one, measured at start")
+        ->check(CLI::IsMember({"auto", "gl", "cpu", "off"}))
+        ->capture_default_str();
+    app.add_option("--context", options.context, "GL context: auto, egl (a GPU), surfaceless or osmesa")
+        ->check(CLI::IsMember({"auto", "egl", "surfaceless", "osmesa"}))
+        ->capture_default_str();
+    app.add_option("--retry-seconds", options.retry_seconds,
+                   "Give up when there has been no server for so long; 0: at the first failure")
+        ->check(CLI::Range(0.0, 1e6))
+        ->capture_default_str();
+    app.add_option("--log-level", options.log_level, "debug, info, warning or error")
+        ->check(CLI::IsMember({"debug", "info", "warning", "error"}))
+        ->capture_default_str();
+
+    try {
+        app.parse(argc, argv);
+        if (print_config) {
+            std::cout << app.config_to_str(true, true);
+            return 0;
+        }
+    } catch (const CLI::Success& success) {  // --help, --version
+        return app.exit(success);
+    } catch (const CLI::Error& error) {
+        std::cerr << "macula-client: " << error.what() << "; see macula-client --help\n";
+        return static_cast<int>(ErrorCode::option);
+    }
+    return options;
+}
+
+Expected<std::pair<std::string, std::uint16_t>> parse_server_address(const std::string& text) {
+    const auto malformed = [&] {
+        return fail(ErrorCode::option, "--connect " + text + ": expected HOST, HOST:PORT or [IPV6]:PORT");
+    };
+    std::string host = text;
+    std::uint16_t port = kDefaultPort;
+    const std::size_t bracket = text.rfind(']');
+    const std::size_t colon = text.rfind(':');
+    const bool bare_ipv6 = bracket == std::string::npos && text.find(':') != colon;
+    if (colon != std::string::npos && !bare_ipv6 && (bracket == std::string::npos || colon > bracket)) {
+        const char* end = text.data() + text.size();
+        const auto [stop, problem] = std::from_chars(text.data() + colon + 1, end, port);
+        if (problem != std::errc() || stop != end || port == 0) return malformed();
+        host = text.substr(0, colon);
+    }
+    if (host.size() > 2 && host.front() == '[' && host.back() == ']') host = host.substr(1, host.size() - 2);
+    if (host.empty() || host.find_first_of("[] ") != std::string::npos) return malformed();
+    return std::pair{host, port};
+}
+
+}  // namespace macula

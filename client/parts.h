@@ -1,0 +1,46 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "client/device/source.h"
+#include "client/options.h"
+#include "client/present/compositor.h"
+#include "client/present/picture_sink.h"
+#include "client/stream/client_session.h"
+#include "masks/display.h"
+#include "protocol/gl/context.h"
+#include "protocol/transport/identity.h"
+
+namespace macula {
+
+// Makes the client's parts from its options.
+
+/// --gaze. `warn` gets what was wrong with single rows of a recording. Errors: `option`, `input_file`.
+Expected<std::unique_ptr<TrackSource>> make_source(const std::string& gaze,
+                                                   const std::function<void(const std::string&)>& warn);
+
+/// --display, one or more. Errors: `option`, `output`.
+Expected<std::vector<std::unique_ptr<PictureSink>>> make_sinks(const std::vector<std::string>& displays);
+
+/// First message of a session with this headset.
+Hello make_hello(const Display& headset, const std::string& sampling, const std::string& token);
+
+/// --token and --fingerprint, or what the state folder of a server on this machine says. Errors: `option`,
+/// `input_file`.
+Expected<Credentials> find_credentials(const ClientOptions& options);
+
+/// The compositor and, where it needs one, its context, which is destroyed after it.
+struct CompositorParts {
+    std::unique_ptr<GlContext> context;
+    std::unique_ptr<Compositor> compositor;
+};
+
+/// --taa-on and --context. With auto, GL on a GPU is taken, and of GL on the CPU and C++ the faster one on a few
+/// frames; without any GL, C++. Errors: `option`, `graphics`.
+Expected<CompositorParts> make_compositor(const ClientOptions& options, const Display& headset,
+                                          const std::function<void(const std::string&)>& log);
+
+}  // namespace macula

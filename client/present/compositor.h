@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "masks/display.h"
+#include "protocol/base/error.h"
+#include "protocol/base/image.h"
+#include "protocol/message/message.h"
+
+namespace macula {
+
+class GlContext;
+
+/// A frame as it comes from the server, decoded. Both eyes side by side.
+struct NewFrame {
+    const ColorImage* color = nullptr;
+    const InverseDepthImage* depth = nullptr;  ///< nearest surface of each 4x4 block
+    PerEye<Pose> world_from_eye;               ///< what `color` is a picture from
+    PerEye<const EyeSamplingMessage*> sampling{};
+    std::span<const std::uint8_t> rank_tile;  ///< Welcome's
+    int rank_tile_size_px = 0;
+    bool continues = true;  ///< whether the frames before are of the same session, so that there is a history
+};
+
+/// What the user sees is made of the frames that came and of where the head is now: temporal anti-aliasing when a
+/// frame comes, late reprojection when a picture is shown. One thread at a time.
+class Compositor {
+public:
+    Compositor() = default;
+    Compositor(const Compositor&) = delete;
+    Compositor& operator=(const Compositor&) = delete;
+    virtual ~Compositor() = default;
+
+    /// Takes a frame into the history. Errors: `graphics` if the GL context is lost.
+    virtual Expected<void> accumulate(const NewFrame& frame) = 0;
+
+    /// Fills `picture` with what the eyes see from these poses: rotation exactly, translation by depth. Errors:
+    /// `graphics`.
+    virtual Expected<void> show(const PerEye<Pose>& world_from_eye, ColorImage& picture) = 0;
+
+    /// For logs: "C++", "GL (llvmpipe ...)".
+    [[nodiscard]] virtual std::string name() const = 0;
+};
+
+}  // namespace macula

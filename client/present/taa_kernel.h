@@ -1,0 +1,152 @@
+#pragma once
+
+// Per-pixel arithmetic of temporal anti-aliasing and late reprojection, in the subset of protocol/gl/KERNELS.md.
+// Fetching is left to the two sides: rows of SIMD lanes in C++, invocations in GLSL.
+
+#include "protocol/gl/kernel_language.h"
+
+KERNEL_BEGIN
+
+/// Where pixels of one view lie in another, as homography plus parallax: with x, y the pixel's coordinates and w its
+/// inverse depth, the sums h.x x + h.y y + h.z + h.w w of the three rows are X, Y, S; the pixel lies at (X / S, Y / S)
+/// and has inverse depth w / S there.
+struct ViewWarp {
+    vec4 x;
+    vec4 y;
+    vec4 s;
+};
+
+/// Where a pixel lies in another view.
+struct Landing {
+    float x;
+    float y;
+    float inverse_depth;
+    float px_per_inverse_depth;  ///< how far it would move if it were nearer by 1/m: the larger of both directions
+    float in_front;              ///< 1, or 0 if it lies behind that view
+};
+
+KERNEL Landing land(KERNEL_IN(ViewWarp) warp, float x, float y, float inverse_depth) {
+    Landing landing;
+    float s = warp.s.x * x + warp.s.y * y + warp.s.z + warp.s.w * inverse_depth;
+    landing.in_front = s > 1e-3F ? 1.0F : 0.0F;
+    float reciprocal = 1.0F / max(s, 1e-3F);
+    landing.x = (warp.x.x * x + warp.x.y * y + warp.x.z + warp.x.w * inverse_depth) * reciprocal;
+    landing.y = (warp.y.x * x + warp.y.y * y + warp.y.z + warp.y.w * inverse_depth) * reciprocal;
+    landing.inverse_depth = inverse_depth * reciprocal;
+    landing.px_per_inverse_depth = max(abs(warp.x.w - landing.x * warp.s.w), abs(warp.y.w - landing.y * warp.s.w));
+    return landing;
+}
+
+/// Inverse depth that a pixel must have to land where the other view sees `there`.
+KERNEL float inverse_depth_here(KERNEL_IN(ViewWarp) warp, float x, float y, float there) {
+    return there * (warp.s.x * x + warp.s.y * y + warp.s.z) / max(1.0F - there * warp.s.w, 0.1F);
+}
+
+/// Edge of the blocks of pixels that share a depth.
+const int kBlock_px = 4;
+
+/// Index of the block that holds a place; outside the picture, of the nearest one. `stride` is blocks in a row.
+KERNEL int depth_block(float x, float y, int width, int height, int stride) {
+    int column = int(min(max(x, 0.0F), float(width - 1))) / kBlock_px;
+    int row = int(min(max(y, 0.0F), float(height - 1))) / kBlock_px;
+    return row * stride + column;
+}
+
+/// The four texels around a place and the weights of the right and the lower ones; at the edge the outermost texels
+/// are repeated.
+struct Footprint {
+    int x;
+    int y;
+    float right;
+    float lower;
+};
+
+KERNEL Footprint footprint(float x, float y, int width, int height) {
+    Footprint taps;
+    float tx = min(max(x - 0.5F, 0.0F), float(width - 1));
+    float ty = min(max(y - 0.5F, 0.0F), float(height - 1));
+    taps.x = min(int(tx), width - 2);
+    taps.y = min(int(ty), height - 2);
+    taps.right = tx - float(taps.x);
+    taps.lower = ty - float(taps.y);
+    return taps;
+}
+
+/// 1 inside the picture, 0 outside: what came from there was never seen.
+KERNEL float inside(KERNEL_IN(Landing) landing, int width, int height) {
+    float nearest_edge = min(min(landing.x, float(width) - landing.x), min(landing.y, float(height) - landing.y));
+    return nearest_edge >= 0.0F ? landing.in_front : 0.0F;
+}
+
+KERNEL vec4 unpack_color(uint rgba) {
+    return vec4(float(int(rgba & 255U)), float(int((rgba >> 8) & 255U)), float(int((rgba >> 16) & 255U)), 255.0F);
+}
+
+/// Channels 0..255.
+KERNEL uint pack_color(vec4 color) {
+    return uint(int(color.x + 0.5F)) | (uint(int(color.y + 0.5F)) << 8) | (uint(int(color.z + 0.5F)) << 16) |
+           0xFF000000U;
+}
+
+KERNEL vec4 bilinear(vec4 upper_left, vec4 upper_right, vec4 lower_left, vec4 lower_right, float right, float lower) {
+    vec4 upper = upper_left + (upper_right - upper_left) * right;
+    vec4 bottom = lower_left + (lower_right - lower_left) * right;
+    return upper + (bottom - upper) * lower;
+}
+
+// A texel of the history is a colour, 0..255, and its precision, 0..1, each in 16 bits: with 8, a weight of .02 would
+// round most changes to nothing. Two words: red and green, blue and precision.
+const float kColorCode = 257.0F;
+const float kPrecisionCode = 65535.0F;
+
+KERNEL vec4 unpack_history(uint red_green, uint blue_precision) {
+    return vec4(float(int(red_green & 65535U)) * (1.0F / kColorCode), float(int(red_green >> 16)) * (1.0F / kColorCode),
+                float(int(blue_precision & 65535U)) * (1.0F / kColorCode),
+                float(int(blue_precision >> 16)) * (1.0F / kPrecisionCode));
+}
+
+KERNEL uint pack_red_green(vec4 history) {
+    return uint(int(history.x * kColorCode + 0.5F)) | (uint(int(history.y * kColorCode + 0.5F)) << 16);
+}
+
+KERNEL uint pack_blue_precision(vec4 history) {
+    return uint(int(history.z * kColorCode + 0.5F)) | (uint(int(history.w * kPrecisionCode + 0.5F)) << 16);
+}
+
+/// How temporal accumulation weighs what it has. Colours are 0..255; a precision is that of one traced sample times
+/// some factor.
+struct TaaWeights {
+    float traced;        ///< precision of a pixel that was traced in this frame: 1
+    float interpolated;  ///< precision of a pixel that was interpolated
+    float limit;         ///< largest precision of the history; with 1, a traced pixel weighs one half
+    float moving_loss;   ///< share of its precision that the history loses when it is resampled half-way
+    float disparity_px;  ///< depths whose landings differ by more contradict each other
+    float slack;         ///< widening of the colour box, for each pixel of sample distance beyond one
+};
+
+/// How much of the history is to be believed: nothing where the surface that was seen there is another one. Two inverse
+/// depths contradict each other only as far as they lead to different places, so nothing is rejected while the
+/// eye does not move.
+KERNEL float history_trust(KERNEL_IN(TaaWeights) weights, KERNEL_IN(Landing) landing, KERNEL_IN(Footprint) taps,
+                           float seen_inverse_depth, int width, int height) {
+    float disparity_px = abs(landing.inverse_depth - seen_inverse_depth) * landing.px_per_inverse_depth;
+    float trust = disparity_px <= weights.disparity_px ? inside(landing, width, height) : 0.0F;
+    // The farther between texels, the more the history is blurred.
+    float blur = 4.0F * max(taps.right * (1.0F - taps.right), taps.lower * (1.0F - taps.lower));
+    return trust * (1.0F - weights.moving_loss * blur);
+}
+
+/// Mean of what is new and what was known, weighted by precision (the static case of a Kalman filter), after the
+/// history was brought into the box [low - slack, high + slack] of the colours around the new pixel. A new pixel of
+/// precision 0 is one that the lens never shows: it is taken as it is, and not believed later.
+KERNEL vec4 accumulate(KERNEL_IN(TaaWeights) weights, vec4 now, vec4 history, float trust, vec4 low, vec4 high,
+                       float slack) {
+    float known = now.w > 0.0F ? history.w * trust : 0.0F;
+    float share = now.w > 0.0F ? now.w / (now.w + known) : 1.0F;
+    vec4 clipped = max(min(history, high + vec4(slack)), low - vec4(slack));
+    vec4 result = clipped + (now - clipped) * share;
+    result.w = min(now.w + known, weights.limit);
+    return result;
+}
+
+KERNEL_END

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "client/present/taa_kernel.h"
+
+namespace macula {
+
+/// The weights that were measured best (tests/bench/taa_quality.cpp): PSNR under head motion and at rest.
+inline kernels::TaaWeights default_taa_weights() {
+    return {.traced = 1.0F,
+            .interpolated = 0.02F,
+            .limit = 1.0F,
+            .moving_loss = 0.5F,
+            .disparity_px = 1.5F,
+            .slack = 64.0F};
+}
+
+/// No history: each frame is shown as it came.
+inline kernels::TaaWeights no_taa_weights() {
+    kernels::TaaWeights weights = default_taa_weights();
+    weights.limit = 0.0F;
+    return weights;
+}
+
+}  // namespace macula

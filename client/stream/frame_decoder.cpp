@@ -1,0 +1,36 @@
+#include "client/stream/frame_decoder.h"
+
+#include <utility>
+
+namespace macula {
+
+Expected<FrameDecoder> FrameDecoder::make(const std::string& codec, int width_px, int height_px) {
+    auto color = make_video_decoder(codec);
+    if (!color) return tl::unexpected(color.error());
+    auto depth = make_depth_decoder();
+    if (!depth) return tl::unexpected(depth.error());
+    return FrameDecoder(std::move(*color), std::move(*depth), width_px, height_px);
+}
+
+Expected<void> FrameDecoder::decode(ReceivedFrame& frame) {
+    Frame& coded = frame.frame;
+    if (needs_keyframe_ && !coded.keyframe) {
+        return fail(ErrorCode::protocol, "frame " + std::to_string(coded.id) + " is not the keyframe that is needed");
+    }
+    needs_keyframe_ = true;
+    if (auto color = color_->decode(coded.color, frame.color); !color) return color;
+    if (auto depth = depth_->decode(coded.depth, coded.near_m, frame.depth); !depth) return depth;
+    if (frame.color.width_px != width_px_ || frame.color.height_px != height_px_ ||
+        frame.depth.width_px != width_px_ / 4 || frame.depth.height_px != height_px_ / 4) {
+        return fail(ErrorCode::protocol, "a picture of " + std::to_string(frame.color.width_px) + "x" +
+                                             std::to_string(frame.color.height_px) + " came where " +
+                                             std::to_string(width_px_) + "x" + std::to_string(height_px_) +
+                                             " was asked for");
+    }
+    needs_keyframe_ = false;
+    coded.color.clear();
+    coded.depth.clear();
+    return {};
+}
+
+}  // namespace macula

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "protocol/base/image.h"
+#include "protocol/codec/codec.h"
+#include "protocol/codec/depth_codec.h"
+#include "protocol/message/message.h"
+
+namespace macula {
+
+/// A frame as the presenter gets it.
+struct ReceivedFrame {
+    Frame frame;              ///< its streams are decoded and emptied
+    std::size_t bytes = 0;    ///< of the message
+    ColorImage color;         ///< both eyes side by side
+    InverseDepthImage depth;  ///< one value for each 4x4 block of `color`: its nearest surface
+    std::int64_t received_ns = 0;
+    std::int64_t decoded_ns = 0;
+    std::uint64_t connection = 0;  ///< counts connections: frames of different ones share no history
+    std::shared_ptr<const Welcome> welcome;
+};
+
+/// The two decoders of one connection. Frames refer to the ones before, so each is decoded, and after one that
+/// could not be, nothing is until the next keyframe. One thread at a time.
+class FrameDecoder {
+public:
+    /// Errors: `option` when libavcodec has no decoder of that name.
+    static Expected<FrameDecoder> make(const std::string& codec, int width_px, int height_px);
+
+    /// Decodes `frame.frame` into `frame.color` and `frame.depth`. Errors: `protocol`, also while a keyframe is
+    /// waited for.
+    Expected<void> decode(ReceivedFrame& frame);
+
+private:
+    FrameDecoder(std::unique_ptr<VideoDecoder> color, std::unique_ptr<DepthDecoder> depth, int width_px, int height_px)
+        : color_(std::move(color)), depth_(std::move(depth)), width_px_(width_px), height_px_(height_px) {}
+
+    std::unique_ptr<VideoDecoder> color_;
+    std::unique_ptr<DepthDecoder> depth_;
+    int width_px_;
+    int height_px_;
+    bool needs_keyframe_ = true;
+};
+
+}  // namespace macula
