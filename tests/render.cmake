@@ -7,6 +7,11 @@ macula_test(kernels_test
     LINK macula_kernels
     LABELS fast)
 
+macula_test(tracer_golden_test
+    SOURCES golden/furnace_test.cpp golden/geometry_test.cpp golden/light_test.cpp golden/shadow_test.cpp
+    LINK macula_tracer macula_scenes
+    LABELS fast)
+
 # Records rays with the tracer's own shading and times Embree alone on them.
 macula_bench(trace_bench SOURCES bench/trace_bench.cpp
     LINK macula_tracer macula_kernels macula_masks macula_scenes embree TBB::tbb)
