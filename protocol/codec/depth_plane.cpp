@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace macula {
 namespace {
 
 // In this order max() gives 0 for a not-a-number.
 std::uint8_t code_of_scaled(float scaled) {
-    return static_cast<std::uint8_t>(std::min(std::max(0.0F, scaled), static_cast<float>(kMaxDepthCode)) + 0.5F);
+    return static_cast<std::uint8_t>(std::lrint(std::min(std::max(0.0F, scaled), static_cast<float>(kMaxDepthCode))));
 }
 
 float scale(float near_m) {

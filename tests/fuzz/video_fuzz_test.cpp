@@ -89,7 +89,7 @@ TEST(VideoFuzz, ValidStreamsAndDegenerateInputsPass) {
 TEST(VideoFuzz, MutatedStreamsNeverBreakAPromise) {
     std::mt19937 random(kSeed);
     const std::vector<Input> corpus{color_stream(), depth_stream()};
-    for (int i = 0; i < 3000; ++i) {
+    for (int i = 0; i < 2000; ++i) {
         SCOPED_TRACE("seed " + std::to_string(kSeed) + ", mutation " + std::to_string(i));
         const Input input = mutated(corpus[i % corpus.size()], random);
         LLVMFuzzerTestOneInput(input.data(), input.size());

@@ -130,6 +130,15 @@ TEST(DepthCodec, ReprojectionErrorIsTheOneOfTheClosedForm) {
     }
 }
 
+TEST(DepthCodec, TableOfTheDepthPage) {  // DEPTH.md, Vive, head moved by 20 mm
+    constexpr float kFocal_px = 571.04F;
+    EXPECT_NEAR(reprojection_error_px(kFocal_px, 0.02F, depth_quantisation_error(0.1F)), 0.224, 5e-4);
+    EXPECT_NEAR(reprojection_error_px(kFocal_px, 0.02F, depth_quantisation_error(0.5F)), 0.045, 5e-4);
+    // The steepest plane at 1 m: a normal of 45 degrees in the image, inverse depth changing by n / (d f) a pixel.
+    const float gradient = std::sqrt(0.5F) / kFocal_px;
+    EXPECT_NEAR(reprojection_error_px(kFocal_px, 0.02F, depth_block_error(gradient, -gradient)), 0.085, 5e-4);
+}
+
 TEST(DepthCodec, CodesSurviveTheStreamExactly) {
     const float near_m = 0.5F;
     const auto e = encoder();
