@@ -1,5 +1,5 @@
+#include <algorithm>
 #include <cstdint>
-#include <optional>
 
 #include <macula_generated.h>
 
@@ -11,8 +11,17 @@
 namespace macula {
 namespace {
 
+// A buffer may point to one text from many places. One byte, or one entry, more than any limit allows is enough for
+// validate to refuse it, and keeps what is copied within a small multiple of the body.
 std::string read(const flatbuffers::String* text) {
-    return text->str();
+    return {text->c_str(), std::min<std::size_t>(text->size(), kMaxText_bytes + 1)};
+}
+
+std::vector<std::string> read(const flatbuffers::Vector<flatbuffers::Offset<flatbuffers::String>>* texts) {
+    std::vector<std::string> result;
+    const auto count = std::min<flatbuffers::uoffset_t>(texts->size(), kMaxCodecs + 1);
+    for (flatbuffers::uoffset_t i = 0; i < count; ++i) result.push_back(read(texts->Get(i)));
+    return result;
 }
 
 std::vector<std::uint8_t> read(const flatbuffers::Vector<std::uint8_t>* bytes) {
@@ -53,8 +62,7 @@ Hello read(const wire::Hello& hello) {
     result.refresh_hz = hello.refresh_hz();
     result.eyes = {read(*hello.left()), read(*hello.right())};
     result.sampling = read(hello.sampling());
-    result.codecs.reserve(hello.codecs()->size());
-    for (const flatbuffers::String* codec : *hello.codecs()) result.codecs.push_back(read(codec));
+    result.codecs = read(hello.codecs());
     return result;
 }
 

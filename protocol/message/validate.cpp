@@ -34,8 +34,7 @@ public:
 
     /// One line: these texts go to logs and terminals.
     void text(const std::string& value, std::size_t max_bytes, std::string_view field) {
-        that(value.size() <= max_bytes, field,
-             "has " + std::to_string(value.size()) + " bytes, more than " + std::to_string(max_bytes));
+        that(value.size() <= max_bytes, field, "has more than " + std::to_string(max_bytes) + " bytes");
         const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; };
         that(std::none_of(value.begin(), value.end(), is_control), field, "holds control characters");
     }
@@ -97,8 +96,7 @@ void check_message(Check& check, Hello& hello) {
     check_edge(check, hello.eye_height_px, "eye_height_px");
     check.number(hello.refresh_hz, kMinRefresh_hz, kMaxRefresh_hz, "refresh_hz");
     check.text(hello.sampling, kMaxName_bytes, "sampling");
-    check.that(hello.codecs.size() <= kMaxCodecs, "codecs",
-               "has " + std::to_string(hello.codecs.size()) + " entries, more than " + std::to_string(kMaxCodecs));
+    check.that(hello.codecs.size() <= kMaxCodecs, "codecs", "has more than " + std::to_string(kMaxCodecs) + " entries");
     for (const std::string& codec : hello.codecs) check.text(codec, kMaxName_bytes, "codecs");
     for (std::size_t eye = 0; eye < hello.eyes.size(); ++eye) {
         check.in(eye_prefix("Hello", eye));
