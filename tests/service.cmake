@@ -6,3 +6,7 @@ macula_test(session_test
     SOURCES unit/session_test.cpp
     LINK macula_service spdlog::spdlog
     LABELS fast)
+macula_test(server_test
+    SOURCES integration/server_test.cpp support/peer.cpp support/small_service.cpp
+    LINK macula_service macula_tracer macula_reconstruct spdlog::spdlog OpenSSL::SSL
+    LABELS fast)
