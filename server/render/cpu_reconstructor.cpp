@@ -1,25 +1,16 @@
 #include <algorithm>
 #include <array>
-#include <cstring>
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include "server/render/palette_lookup.h"
 #include "server/render/reconstruct_source.h"
 #include "server/render/reconstructor.h"
 
 namespace macula {
 
 namespace {
-
-using Colors = std::array<Rgba8, kTileArea_px>;
-using InverseDepths = std::array<float, kTileArea_px>;
-
-/// Samples or pixels of one tile.
-struct Patch {
-    alignas(64) Colors color;
-    alignas(64) InverseDepths inverse_depth;
-};
 
 /// Makes pictures of tiles by loops that a compiler turns into vector instructions. Where a tile misses samples, the
 /// few pixels that need them are left to the kernel.
@@ -61,12 +52,10 @@ private:
         const bool complete = fetch(tile, cell, palette);
         blend(cell, palette, pixels);
         if (complete) return;
-        for (int i = 0; i < kTileArea_px; ++i) {
-            const auto missing = [&](std::uint8_t index) { return palette.inverse_depth[index] < 0.0F; };
-            if (missing(cell.a[i]) || missing(cell.b[i]) || missing(cell.c[i]))
+        for (int i = 0; i < kTileArea_px; ++i)
+            if (pixels.inverse_depth[i] < 0.0F)
                 kernels::reconstruct_pixel(source_, view_, place, {i % kTileEdge_px, i / kTileEdge_px}, pixels.color[i],
                                            pixels.inverse_depth[i]);
-        }
     }
 
     /// Gathers the samples of a tile's palette; a missing one gets inverse depth -1. False: some are missing.
@@ -88,17 +77,23 @@ private:
         return least >= 0.0F;
     }
 
+    /// Interpolates; a pixel of which a sample is missing gets inverse depth -1.
     static void blend(const CellTable& cell, const Patch& palette, Patch& pixels) {
+        Patch a;
+        Patch b;
+        Patch c;
+        look_up(palette, cell.palette.size(), cell.a, a);
+        look_up(palette, cell.palette.size(), cell.b, b);
+        look_up(palette, cell.palette.size(), cell.c, c);
         for (std::size_t i = 0; i < kTileArea_px; ++i) {
-            const std::size_t a = cell.a[i];
-            const std::size_t b = cell.b[i];
-            const std::size_t c = cell.c[i];
             const std::uint32_t weight_b = cell.weight_b[i];
             const std::uint32_t weight_c = cell.weight_c[i];
-            pixels.color[i] = kernels::blend_color(palette.color[a], palette.color[b], palette.color[c],
-                                                   256 - weight_b - weight_c, weight_b, weight_c);
-            pixels.inverse_depth[i] = kernels::blend_inverse_depth(palette.inverse_depth[a], palette.inverse_depth[b],
-                                                                   palette.inverse_depth[c], weight_b, weight_c);
+            pixels.color[i] =
+                kernels::blend_color(a.color[i], b.color[i], c.color[i], 256 - weight_b - weight_c, weight_b, weight_c);
+            const float depth = kernels::blend_inverse_depth(a.inverse_depth[i], b.inverse_depth[i], c.inverse_depth[i],
+                                                             weight_b, weight_c);
+            const float least = std::min(std::min(a.inverse_depth[i], b.inverse_depth[i]), c.inverse_depth[i]);
+            pixels.inverse_depth[i] = least < 0.0F ? -1.0F : depth;
         }
     }
 
@@ -107,18 +102,18 @@ private:
 };
 
 /// Copies the part of a tile's picture that lies in the window.
-void place(const Patch& pixels, glm::ivec2 top_left, const kernels::ReconstructView& view,
-           const ReconstructTarget& target) {
+template <class T>
+void place(const std::array<T, kTileArea_px>& pixels, glm::ivec2 top_left, glm::ivec2 size, T* to, std::size_t stride) {
     const glm::ivec2 first = glm::max(glm::ivec2(0), -top_left);
-    const glm::ivec2 last = glm::min(glm::ivec2(kTileEdge_px), view.size_px - top_left);
-    const auto width = static_cast<std::size_t>(last.x - first.x);
-    for (int y = first.y; y < last.y; ++y) {
-        const auto row = static_cast<std::size_t>(top_left.y + y);
-        const auto column = static_cast<std::size_t>(top_left.x + first.x);
-        const auto from = static_cast<std::size_t>(y * kTileEdge_px + first.x);
-        std::memcpy(target.color + row * target.color_stride_px + column, &pixels.color[from], width * sizeof(Rgba8));
-        std::memcpy(target.inverse_depth_per_m + row * target.depth_stride_px + column, &pixels.inverse_depth[from],
-                    width * sizeof(float));
+    const glm::ivec2 last = glm::min(glm::ivec2(kTileEdge_px), size - top_left);
+    const T* from = pixels.data() + kTileEdge_px * first.y + first.x;
+    to += static_cast<std::size_t>(top_left.y + first.y) * stride + static_cast<std::size_t>(top_left.x + first.x);
+    const bool whole_rows = last.x - first.x == kTileEdge_px;
+    for (int y = first.y; y < last.y; ++y, from += kTileEdge_px, to += stride) {
+        if (whole_rows)
+            std::copy_n(from, kTileEdge_px, to);  // of known length: one instruction instead of a call
+        else
+            std::copy_n(from, last.x - first.x, to);
     }
 }
 
@@ -136,7 +131,10 @@ public:
             for (int tile_y = rows.begin(); tile_y != rows.end(); ++tile_y)
                 for (int tile_x = 1; tile_x < plan.tiles_x - 1; ++tile_x) {
                     tiles.reconstruct(tile_x, tile_y, pixels);
-                    place(pixels, plan.origin_px + kTileEdge_px * glm::ivec2(tile_x, tile_y), view, target);
+                    const glm::ivec2 top_left = plan.origin_px + kTileEdge_px * glm::ivec2(tile_x, tile_y);
+                    place(pixels.color, top_left, view.size_px, target.color, target.color_stride_px);
+                    place(pixels.inverse_depth, top_left, view.size_px, target.inverse_depth_per_m,
+                          target.depth_stride_px);
                 }
         });
         return {};
