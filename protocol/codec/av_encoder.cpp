@@ -4,10 +4,12 @@ extern "C" {
 #include <libavutil/opt.h>
 }
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <string_view>
+#include <thread>
 
 namespace macula {
 namespace {
@@ -87,6 +89,11 @@ void set_private_options(AVCodecContext& context, std::span<const PrivateOption>
     }
 }
 
+/// Each thread codes a slice of its own, and what slices cost in bits grows with their number.
+int automatic_threads() {
+    return static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, 8U));
+}
+
 void configure(AVCodecContext& context, const AvEncoderOptions& o) {
     context.width = o.width_px;
     context.height = o.height_px;
@@ -97,7 +104,7 @@ void configure(AVCodecContext& context, const AvEncoderOptions& o) {
     context.gop_size = std::numeric_limits<int>::max();  // keyframes only when they are asked for
     context.flags |= AV_CODEC_FLAG_LOW_DELAY;
     context.thread_type = FF_THREAD_SLICE;  // all threads work on the same picture: threads over pictures add delay
-    context.thread_count = o.threads;
+    context.thread_count = o.threads > 0 ? o.threads : automatic_threads();
     context.sample_aspect_ratio = {1, 1};
     set_private_options(context, kPrivateOptions);
     if (o.bit_rate_bps == 0) {

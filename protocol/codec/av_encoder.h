@@ -17,7 +17,7 @@ struct AvEncoderOptions {
     AVPixelFormat format = AV_PIX_FMT_NONE;
     double frame_rate_hz = 90.0;
     std::int64_t bit_rate_bps = 0;  ///< 0: lossless, at whatever rate that takes
-    int threads = 0;                ///< 0: the library's choice
+    int threads = 0;                ///< 0: one for each core, at most 8
 };
 
 /// Low-delay H.264 encoder of raw pictures through libavcodec: one picture in, one access unit out; no B frames, no

@@ -18,7 +18,7 @@ struct VideoEncoderOptions {
     int height_px = 0;
     double frame_rate_hz = 90.0;  ///< for rate control
     std::int64_t bit_rate_bps = 25'000'000;
-    int threads = 0;  ///< 0: the library's choice
+    int threads = 0;  ///< 0: one for each core, at most 8
 };
 
 /// One encoded picture.

@@ -16,7 +16,7 @@ struct DepthEncoderOptions {
     int width_px = 0;
     int height_px = 0;
     double frame_rate_hz = 90.0;
-    int threads = 0;  ///< 0: the library's choice
+    int threads = 0;  ///< 0: one for each core, at most 8
 };
 
 /// Encodes inverse depth as a quarter-resolution plane of 8-bit codes (depth_plane.h), without loss, in an H.264 stream

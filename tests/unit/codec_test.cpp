@@ -1,10 +1,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <string>
+#include <vector>
 
 #include "protocol/codec/codec.h"
 #include "protocol/codec/color_convert.h"
+#include "protocol/codec/depth_codec.h"
 #include "tests/support/codec_pictures.h"
 
 namespace macula {
@@ -116,6 +119,30 @@ TEST(VideoEncoder, UnknownNameListsTheEncoders) {
     EXPECT_NE(message.find("libx264"), std::string::npos) << message;
     o.codec = "mpeg4";  // exists, but is no H.264
     EXPECT_NE(option_error(o).find("libx264"), std::string::npos);
+}
+
+TEST(VideoEncoder, EveryListedEncoderWorksOrSaysWhatToDo) {
+    auto o = options();
+    o.codec = "none";
+    std::string names = option_error(o);
+    names = names.substr(names.rfind(':') + 2) + ", ";
+    std::vector<std::string> working;
+    for (std::size_t at = 0; at < names.size(); at = names.find(", ", at) + 2) {
+        o.codec = names.substr(at, names.find(", ", at) - at);
+        const auto made = make_video_encoder(o);
+        if (!made) {
+            EXPECT_EQ(made.error().code, ErrorCode::option);
+            EXPECT_NE(made.error().message.find(o.codec), std::string::npos) << made.error().message;
+            EXPECT_NE(made.error().message.find("libx264"), std::string::npos) << made.error().message;
+            std::printf("%s\n", made.error().message.c_str());
+            continue;
+        }
+        const auto encoded = (*made)->encode(smooth_picture(kWidth_px, kHeight_px), true);
+        ASSERT_TRUE(encoded) << encoded.error().message;
+        EXPECT_TRUE(encoded->keyframe) << o.codec;
+        working.push_back(o.codec);
+    }
+    EXPECT_NE(std::ranges::find(working, "libx264"), working.end());
 }
 
 TEST(VideoEncoder, RefusesSizesAndRatesByName) {
@@ -236,6 +263,32 @@ TEST(VideoDecoder, RecoversAtTheNextKeyframe) {
     expect_recovery(units, {0x00});  // not H.264 at all
     expect_recovery(units, std::vector<std::uint8_t>(1000, 0xa5));
     expect_recovery(units, units[3].bytes);  // the one before, again
+}
+
+TEST(VideoDecoder, ATruncatedKeyframeIsNoKeyframe) {
+    const auto units = stream(4, {3});
+    const auto d = decoder();
+    ColorImage shown;
+    const std::span<const std::uint8_t> keyframe(units[0].bytes);
+    EXPECT_FALSE(d->decode(keyframe.first(keyframe.size() / 2), shown));
+    EXPECT_FALSE(d->decode(units[1].bytes, shown));
+    EXPECT_TRUE(d->decode(units[3].bytes, shown));
+}
+
+TEST(VideoDecoder, ADepthStreamIsNoPicture) {
+    const auto depth = make_depth_encoder({.width_px = 2 * kWidth_px, .height_px = kHeight_px});
+    ASSERT_TRUE(depth);
+    const auto unit = (*depth)->encode(room_depth(2 * kWidth_px, kHeight_px), 0.5F, false);
+    ASSERT_TRUE(unit);
+    ColorImage shown;
+    const auto decoded = decoder()->decode(unit->bytes, shown);
+    ASSERT_FALSE(decoded);
+    EXPECT_EQ(decoded.error().code, ErrorCode::protocol);
+    const auto depth_decoder = make_depth_decoder();
+    ASSERT_TRUE(depth_decoder);
+    InverseDepthImage quarter;
+    EXPECT_TRUE((*depth_decoder)->decode(unit->bytes, 0.5F, quarter));
+    EXPECT_FALSE((*depth_decoder)->decode(stream(1)[0].bytes, 0.5F, quarter));
 }
 
 TEST(VideoDecoder, RefusesAnEmptyUnit) {
