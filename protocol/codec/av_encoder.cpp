@@ -2,6 +2,7 @@
 
 extern "C" {
 #include <libavutil/opt.h>
+#include <libavutil/pixdesc.h>
 }
 
 #include <algorithm>
@@ -22,19 +23,11 @@ struct PrivateOption {
 };
 
 constexpr std::array kPrivateOptions = {
-    PrivateOption{"libx264", "preset", "ultrafast"},
-    PrivateOption{"libx264", "tune", "zerolatency"},
-    PrivateOption{"libx264", "forced-idr", "1"},
-    PrivateOption{"h264_nvenc", "preset", "p1"},
-    PrivateOption{"h264_nvenc", "tune", "ull"},
-    PrivateOption{"h264_nvenc", "rc", "cbr"},
-    PrivateOption{"h264_nvenc", "zerolatency", "1"},
-    PrivateOption{"h264_nvenc", "delay", "0"},
+    PrivateOption{"libx264", "preset", "ultrafast"}, PrivateOption{"libx264", "tune", "zerolatency"},
+    PrivateOption{"libx264", "forced-idr", "1"},     PrivateOption{"h264_nvenc", "preset", "p1"},
+    PrivateOption{"h264_nvenc", "tune", "ull"},      PrivateOption{"h264_nvenc", "rc", "cbr"},
+    PrivateOption{"h264_nvenc", "zerolatency", "1"}, PrivateOption{"h264_nvenc", "delay", "0"},
     PrivateOption{"h264_nvenc", "forced-idr", "1"},
-    PrivateOption{"h264_qsv", "preset", "veryfast"},
-    PrivateOption{"h264_qsv", "async_depth", "1"},
-    PrivateOption{"h264_qsv", "forced_idr", "1"},
-    PrivateOption{"h264_amf", "usage", "ultralowlatency"},
 };
 
 /// Lossless by x264: transform bypass, and CABAC, which is a quarter smaller than ultrafast's CAVLC on depth.
@@ -55,7 +48,8 @@ std::string h264_encoders() {
 }
 
 bool accepts(const AVCodec& codec, AVPixelFormat format) {
-    for (const AVPixelFormat* f = codec.pix_fmts; f != nullptr && *f != AV_PIX_FMT_NONE; ++f) {
+    if (codec.pix_fmts == nullptr) return true;  // the encoder does not say; opening it will
+    for (const AVPixelFormat* f = codec.pix_fmts; *f != AV_PIX_FMT_NONE; ++f) {
         if (*f == format) return true;
     }
     return false;
@@ -132,9 +126,9 @@ Expected<AvEncoder> AvEncoder::open(const AvEncoderOptions& options) {
                     "\"" + options.codec + "\" is not an H.264 encoder of this libavcodec; it has: " + h264_encoders());
     }
     if (!accepts(*codec, options.format)) {
-        return fail(ErrorCode::option,
-                    "encoder " + options.codec +
-                        " does not take these pictures from memory; choose another of: " + h264_encoders());
+        return fail(ErrorCode::option, "encoder " + options.codec + " does not take " +
+                                           av_get_pix_fmt_name(options.format) +
+                                           " pictures from memory; choose another of: " + h264_encoders());
     }
     if (auto valid = check(options); !valid) return tl::unexpected(valid.error());
 
