@@ -2,3 +2,5 @@ macula_test(recording_test SOURCES unit/recording_test.cpp LINK macula_device LA
 macula_test(recording_fuzz_test SOURCES unit/recording_fuzz_test.cpp fuzz/recording_fuzz.cpp LINK macula_device
     LABELS fast)
 macula_test(simulation_test SOURCES property/simulation_test.cpp LINK macula_device LABELS fast)
+
+macula_bench(compositor_bench SOURCES bench/compositor_bench.cpp LINK macula_present TBB::tbb)

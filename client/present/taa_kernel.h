@@ -95,7 +95,7 @@ KERNEL vec4 bilinear(vec4 upper_left, vec4 upper_right, vec4 lower_left, vec4 lo
 }
 
 // A texel of the history is a colour, 0..255, and its precision, 0..1, each in 16 bits: with 8, a weight of .02 would
-// round most changes to nothing. Two words: red and green, blue and precision.
+// round most changes to nothing. Two words, as .x and .y of a uvec2: red and green, blue and precision.
 const float kColorCode = 257.0F;
 const float kPrecisionCode = 65535.0F;
 

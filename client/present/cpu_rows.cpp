@@ -1,0 +1,160 @@
+#include "client/present/cpu_rows.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace macula {
+namespace {
+
+using namespace kernels;
+
+constexpr int kChunk = 64;
+template <class T>
+using Lanes = std::array<T, kChunk>;
+
+/// Where the pixels of a chunk land, and what is loaded from there.
+struct Landings {
+    alignas(64) Lanes<float> x;
+    alignas(64) Lanes<float> y;
+    alignas(64) Lanes<std::int32_t> at;
+    alignas(64) Lanes<float> right;
+    alignas(64) Lanes<float> lower;
+    alignas(64) Lanes<float> depth;
+};
+
+/// Loads the depth block of each place.
+void load_depth(Landings& to, const EyeDepth& depth, int width, int height) {
+    for (int i = 0; i < kChunk; ++i) to.at[i] = depth_block(to.x[i], to.y[i], width, height, depth.stride);
+    for (int i = 0; i < kChunk; ++i) to.depth[i] = depth.blocks[to.at[i]];
+}
+
+/// The chunks of a row: the last one begins early enough to be whole, and repeats pixels, unless the row is shorter.
+template <class Chunk>
+void for_chunks(int width, Chunk&& chunk) {
+    for (int begin = 0; begin < width; begin += kChunk) chunk(std::max(0, std::min(begin, width - kChunk)));
+}
+
+}  // namespace
+
+void ColorBox::fill(const Rgba8* above, const Rgba8* here, const Rgba8* below, int width) {
+    auto* low = reinterpret_cast<std::uint8_t*>(low_.data());
+    auto* high = reinterpret_cast<std::uint8_t*>(high_.data());
+    const auto* a = reinterpret_cast<const std::uint8_t*>(above);
+    const auto* b = reinterpret_cast<const std::uint8_t*>(here);
+    const auto* c = reinterpret_cast<const std::uint8_t*>(below);
+    const int bytes = 4 * width;
+    for (int i = 0; i < bytes; ++i) {
+        low[4 + i] = std::min(std::min(a[i], b[i]), c[i]);
+        high[4 + i] = std::max(std::max(a[i], b[i]), c[i]);
+    }
+    const auto last = static_cast<std::size_t>(width);
+    low_[0] = low_[1];
+    high_[0] = high_[1];
+    low_[last + 1] = low_[last];
+    high_[last + 1] = high_[last];
+    // Pixel x of the box replaces column x - 1, which no later one reads.
+    for (int i = 0; i < bytes; ++i) {
+        low[i] = std::min(std::min(low[i], low[i + 4]), low[i + 8]);
+        high[i] = std::max(std::max(high[i], high[i + 4]), high[i + 8]);
+    }
+}
+
+void accumulate_row(const AccumulateRow& row) {
+    const ViewWarp warp = row.warp;
+    const TaaWeights weights = row.weights;
+    const int width = row.width;
+    const int height = row.height;
+    const float py = static_cast<float>(row.y) + 0.5F;
+    Landings to;
+    alignas(64) Lanes<float> trust;
+    alignas(64) std::array<HistoryTexel, 2 * kChunk> upper;
+    alignas(64) std::array<HistoryTexel, 2 * kChunk> lower;
+    alignas(64) Lanes<float> depth;
+    for_chunks(width, [&](int begin) {
+        for (int i = 0; i < kChunk; ++i) depth[i] = row.depth[(begin + i) / kBlock_px];
+        for (int i = 0; i < kChunk; ++i) {
+            const Landing landing = land(warp, static_cast<float>(begin + i) + 0.5F, py, depth[i]);
+            to.x[i] = landing.x;
+            to.y[i] = landing.y;
+        }
+        load_depth(to, row.depth_before, width, height);
+        for (int i = 0; i < kChunk; ++i) {
+            const Landing landing = land(warp, static_cast<float>(begin + i) + 0.5F, py, depth[i]);
+            const Footprint taps = footprint(landing.x, landing.y, width, height);
+            trust[i] = row.continues * history_trust(weights, landing, taps, to.depth[i], width, height);
+            to.at[i] = taps.y * width + taps.x;
+            to.right[i] = taps.right;
+            to.lower[i] = taps.lower;
+        }
+        for (int i = 0; i < kChunk; ++i) {
+            std::memcpy(&upper[2 * i], row.history + to.at[i], 2 * sizeof(HistoryTexel));
+            std::memcpy(&lower[2 * i], row.history + to.at[i] + width, 2 * sizeof(HistoryTexel));
+        }
+        const Rgba8* __restrict color = row.color + begin;
+        const float* __restrict precision = row.precision + begin;
+        const float* __restrict slack = row.slack + begin;
+        const std::uint32_t* __restrict low = row.low + begin;
+        const std::uint32_t* __restrict high = row.high + begin;
+        HistoryTexel* __restrict history_out = row.history_out + begin;
+        Rgba8* __restrict color_out = row.color_out + begin;
+        for (int i = 0; i < kChunk; ++i) {
+            const vec4 history = bilinear(unpack_history(upper[2 * i].red_green, upper[2 * i].blue_precision),
+                                          unpack_history(upper[2 * i + 1].red_green, upper[2 * i + 1].blue_precision),
+                                          unpack_history(lower[2 * i].red_green, lower[2 * i].blue_precision),
+                                          unpack_history(lower[2 * i + 1].red_green, lower[2 * i + 1].blue_precision),
+                                          to.right[i], to.lower[i]);
+            vec4 now = unpack_color(color[i]);
+            now.w = precision[i];
+            const vec4 result =
+                accumulate(weights, now, history, trust[i], unpack_color(low[i]), unpack_color(high[i]), slack[i]);
+            history_out[i].red_green = pack_red_green(result);
+            history_out[i].blue_precision = pack_blue_precision(result);
+            color_out[i] = pack_color(result);
+        }
+    });
+}
+
+void show_row(const ShowRow& row) {
+    const ViewWarp warp = row.warp;
+    const int width = row.width;
+    const int height = row.height;
+    const float py = static_cast<float>(row.y) + 0.5F;
+    Landings to;
+    alignas(64) Lanes<float> visible;
+    alignas(64) std::array<Rgba8, 2 * kChunk> upper;
+    alignas(64) std::array<Rgba8, 2 * kChunk> lower;
+    for_chunks(width, [&](int begin) {
+        to.depth = {};
+        // Which surface lands here is only known there: look, correct, look again.
+        for (int step = 0; step < 3; ++step) {
+            for (int i = 0; i < kChunk; ++i) {
+                const float px = static_cast<float>(begin + i) + 0.5F;
+                const Landing landing = land(warp, px, py, inverse_depth_here(warp, px, py, to.depth[i]));
+                to.x[i] = landing.x;
+                to.y[i] = landing.y;
+                visible[i] = inside(landing, width, height);
+            }
+            if (step < 2) load_depth(to, row.depth, width, height);
+        }
+        for (int i = 0; i < kChunk; ++i) {
+            const Footprint taps = footprint(to.x[i], to.y[i], width, height);
+            to.at[i] = taps.y * row.color.stride + taps.x;
+            to.right[i] = taps.right;
+            to.lower[i] = taps.lower;
+        }
+        for (int i = 0; i < kChunk; ++i) {
+            std::memcpy(&upper[2 * i], row.color.pixels + to.at[i], 2 * sizeof(Rgba8));
+            std::memcpy(&lower[2 * i], row.color.pixels + to.at[i] + row.color.stride, 2 * sizeof(Rgba8));
+        }
+        const std::uint8_t* __restrict hidden = row.hidden + begin;
+        Rgba8* __restrict out = row.out + begin;
+        for (int i = 0; i < kChunk; ++i) {
+            const vec4 color =
+                bilinear(unpack_color(upper[2 * i]), unpack_color(upper[2 * i + 1]), unpack_color(lower[2 * i]),
+                         unpack_color(lower[2 * i + 1]), to.right[i], to.lower[i]);
+            out[i] = pack_color(color * (hidden[i] != 0 ? 0.0F : visible[i]));
+        }
+    });
+}
+
+}  // namespace macula
