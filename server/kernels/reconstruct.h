@@ -26,7 +26,9 @@ const int kFullCount = 256;
 const uint kOpaqueBlack = 0xFF000000U;
 
 // Where the nearest of three samples is more than this factor nearer than the farthest, they lie on different
-// surfaces. So do a hit and a miss.
+// surfaces. So do a hit and a miss. Measured on a room with spheres and poles at 27 %, as the pixels whose inverse
+// depth reprojects more than half a pixel wrong when the head steps 2 cm aside: .106 % at this ratio, .114 % at 1.05,
+// .124 % at 1.5, .265 % where everything is interpolated; the mean error falls by a fifth.
 const float kSurfaceRatio = 1.25F;
 
 /// What all tiles of a plan have in common. std430 layout.

@@ -125,6 +125,25 @@ void reference(benchmark::State& state) {
 }
 BENCHMARK(reference)->Arg(27)->ArgName("percent")->Unit(benchmark::kMillisecond)->UseRealTime();
 
+void gl(benchmark::State& state, ContextKind kind) {
+    auto context = make_gl_context(kind);
+    if (!context) return state.SkipWithError(context.error().message.c_str());
+    auto reconstructor = make_gl_reconstructor(std::move(*context), tables());
+    if (!reconstructor) return state.SkipWithError(reconstructor.error().message.c_str());
+    state.SetLabel((*reconstructor)->name());
+    measure(state, **reconstructor, static_cast<int>(state.range(0)));
+}
+BENCHMARK_CAPTURE(gl, automatic, ContextKind::automatic)
+    ->ArgsProduct({{100, 54, 41, 27, 18}})
+    ->ArgName("percent")
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
+BENCHMARK_CAPTURE(gl, osmesa, ContextKind::osmesa)
+    ->ArgsProduct({{54, 18}})
+    ->ArgName("percent")
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
+
 }  // namespace
 }  // namespace macula
 
