@@ -17,11 +17,10 @@
 #include "masks/tile_tables.h"
 #include "protocol/codec/codec.h"
 #include "protocol/codec/depth_codec.h"
-#include "protocol/gl/context.h"
 #include "protocol/transport/tls.h"
 #include "scenes/load.h"
 #include "server/options.h"
-#include "server/render/reconstructor.h"
+#include "server/render/reconstructor_factory.h"
 #include "server/render/tracer.h"
 #include "server/service/server.h"
 
@@ -87,6 +86,17 @@ Expected<std::shared_ptr<const Tracer>> make_tracer(std::shared_ptr<const Scene>
     return std::shared_ptr<const Tracer>(*std::move(tracer));
 }
 
+Expected<std::shared_ptr<const ReconstructorFactory>> make_reconstructors(
+    const Options& options, const std::shared_ptr<const TileTables>& tables, const Logger& logger) {
+    ReconstructorOptions choice;
+    choice.context = options.context;
+    choice.reconstruct_on = options.reconstruct_on;
+    auto factory = make_reconstructor_factory(choice, tables);
+    if (!factory) return tl::unexpected(factory.error());
+    logger->info("reconstruction: {}: {}", (*factory)->name(), (*factory)->reason());
+    return std::shared_ptr<const ReconstructorFactory>(*std::move(factory));
+}
+
 Expected<std::unique_ptr<Sampler>> make_sampler(const Display& display, Eye eye, const std::string& preset_name,
                                                 const std::shared_ptr<const TileTables>& tables) {
     const auto preset = parse_sampling(preset_name);
@@ -131,17 +141,19 @@ Expected<void> run(const Options& options, const Logger& logger) {
     const auto tracer = make_tracer(*scene, logger);
     if (!tracer) return tl::unexpected(tracer.error());
     const auto tables = std::make_shared<const TileTables>(make_rank_tile());
+    const auto reconstructors = make_reconstructors(options, tables, logger);
+    if (!reconstructors) return tl::unexpected(reconstructors.error());
 
     Supplies supplies;
     supplies.scene = *scene;
     supplies.tracer = *tracer;
     supplies.rank_tile = std::shared_ptr<const RankTile>(tables, &tables->rank_tile());
-    supplies.renderer = (*tracer)->name();
+    supplies.renderer = (*tracer)->name() + "; " + (*reconstructors)->name();
     supplies.default_sampling = options.sampling;
     supplies.make_sampler = [tables](const Display& display, Eye eye, const std::string& preset) {
         return make_sampler(display, eye, preset, tables);
     };
-    supplies.make_reconstructor = [tables] { return make_cpu_reconstructor(tables); };
+    supplies.make_reconstructor = [factory = *reconstructors] { return factory->make(); };
     supplies.make_color_encoder = make_color_encoder;
     supplies.make_depth_encoder = [](int width_px, int height_px, double frame_rate_hz) {
         return make_depth_encoder({width_px, height_px, frame_rate_hz, 0});

@@ -10,3 +10,8 @@ macula_test(server_test
     SOURCES integration/server_test.cpp support/peer.cpp support/small_service.cpp
     LINK macula_service macula_tracer macula_reconstruct spdlog::spdlog OpenSSL::SSL
     LABELS fast)
+macula_test(server_program_test
+    SOURCES integration/server_program_test.cpp support/peer.cpp support/program.cpp
+    LINK macula_transport)
+target_compile_definitions(server_program_test PRIVATE MACULA_SERVER="$<TARGET_FILE:macula-server>")
+add_dependencies(server_program_test macula-server)
