@@ -8,7 +8,8 @@ macula_test(kernels_test
     LABELS fast)
 
 macula_test(tracer_golden_test
-    SOURCES golden/furnace_test.cpp golden/geometry_test.cpp golden/light_test.cpp golden/shadow_test.cpp
+    SOURCES golden/furnace_test.cpp golden/geometry_test.cpp golden/light_test.cpp
+            golden/material_test.cpp golden/shadow_test.cpp
     LINK macula_tracer macula_scenes
     LABELS fast)
 
