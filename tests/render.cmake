@@ -7,6 +7,13 @@ macula_test(kernels_test
     LINK macula_kernels
     LABELS fast)
 
+# Mesa's rasteriser threads are not instrumented, so that contexts stay out of the sanitizer runs ("fast").
+macula_test(kernels_gl_test SOURCES differential/kernels_gl_test.cpp LINK macula_kernels macula_gl LABELS gl)
+macula_kernel_text(kernels_gl_test
+    server/kernels/brdf.h server/kernels/camera.h server/kernels/color.h server/kernels/light.h
+    server/kernels/shade.h server/kernels/texture.h
+    tests/differential/kernel_cases.h tests/differential/kernel_cases_main.glsl)
+
 macula_test(tracer_golden_test
     SOURCES golden/furnace_test.cpp golden/geometry_test.cpp golden/light_test.cpp
             golden/material_test.cpp golden/shadow_test.cpp
