@@ -55,7 +55,7 @@ struct Client {
     std::unique_ptr<TrackSource> source;
     std::unique_ptr<Recorder> recorder;
     std::vector<std::unique_ptr<PictureSink>> sinks;
-    CompositorParts compositor;
+    std::unique_ptr<Compositor> compositor;
     Report report;
     Logger logger;
 };
@@ -80,10 +80,10 @@ Expected<void> present(Client& client, ClientSession& session, const DeviceThrea
     input.rank_tile = received.welcome->rank_tile;
     input.rank_tile_size_px = received.welcome->rank_tile_size_px;
     input.continues = std::exchange(connection_before, received.connection) == received.connection;
-    if (auto done = client.compositor.compositor->accumulate(input); !done) return done;
+    if (auto done = client.compositor->accumulate(input); !done) return done;
     times.accumulated_ns = now_ns();
     const Pose world_from_head = received.welcome->world_from_start * devices.newest_start_from_head();
-    if (auto done = client.compositor.compositor->show(eye_poses(client.headset, world_from_head), picture); !done) {
+    if (auto done = client.compositor->show(eye_poses(client.headset, world_from_head), picture); !done) {
         return done;
     }
     times.reprojected_ns = times.displayed_ns = now_ns();

@@ -6,9 +6,11 @@
 
 #include "client/device/replay.h"
 #include "client/device/simulation.h"
+#include "client/present/compositor_choice.h"
 #include "client/present/make_compositor.h"
 #include "client/present/taa_settings.h"
 #include "client/spec.h"
+#include "protocol/gl/context.h"
 
 namespace macula {
 
@@ -101,13 +103,18 @@ Expected<Credentials> find_credentials(const ClientOptions& options) {
     return credentials;
 }
 
-Expected<CompositorParts> make_compositor(const ClientOptions& options, const Display& headset,
-                                          const std::function<void(const std::string&)>& log) {
-    CompositorParts parts;
-    const bool off = options.taa_on == "off";
-    parts.compositor = make_cpu_compositor(headset, off ? no_taa_weights() : default_taa_weights());
-    log("temporal anti-aliasing " + (off ? std::string("off") : "on " + parts.compositor->name()));
-    return parts;
+Expected<std::unique_ptr<Compositor>> make_compositor(const ClientOptions& options, const Display& headset,
+                                                      const std::function<void(const std::string&)>& log) {
+    if (options.taa_on == "off") {
+        log("temporal anti-aliasing is off");
+        return make_cpu_compositor(headset, no_taa_weights());
+    }
+    const auto context = parse_context_kind(options.context);
+    if (!context) return tl::unexpected(context.error());
+    const TaaOn on = options.taa_on == "gl" ? TaaOn::gl : options.taa_on == "cpu" ? TaaOn::cpu : TaaOn::automatic;
+    auto compositor = choose_compositor(on, *context, headset, default_taa_weights(), log);
+    if (compositor) log("temporal anti-aliasing on " + (*compositor)->name());
+    return compositor;
 }
 
 }  // namespace macula

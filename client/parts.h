@@ -11,7 +11,6 @@
 #include "client/present/picture_sink.h"
 #include "client/stream/client_session.h"
 #include "masks/display.h"
-#include "protocol/gl/context.h"
 #include "protocol/transport/identity.h"
 
 namespace macula {
@@ -32,15 +31,8 @@ Hello make_hello(const Display& headset, const std::string& sampling, const std:
 /// `input_file`.
 Expected<Credentials> find_credentials(const ClientOptions& options);
 
-/// The compositor and, where it needs one, its context, which is destroyed after it.
-struct CompositorParts {
-    std::unique_ptr<GlContext> context;
-    std::unique_ptr<Compositor> compositor;
-};
-
-/// --taa-on and --context. With auto, GL on a GPU is taken, and of GL on the CPU and C++ the faster one on a few
-/// frames; without any GL, C++. Errors: `option`, `graphics`.
-Expected<CompositorParts> make_compositor(const ClientOptions& options, const Display& headset,
-                                          const std::function<void(const std::string&)>& log);
+/// --taa-on and --context; `log` gets the choice. Errors: `option`, `graphics`.
+Expected<std::unique_ptr<Compositor>> make_compositor(const ClientOptions& options, const Display& headset,
+                                                      const std::function<void(const std::string&)>& log);
 
 }  // namespace macula

@@ -4,3 +4,4 @@ macula_test(recording_fuzz_test SOURCES unit/recording_fuzz_test.cpp fuzz/record
 macula_test(simulation_test SOURCES property/simulation_test.cpp LINK macula_device LABELS fast)
 
 macula_bench(compositor_bench SOURCES bench/compositor_bench.cpp LINK macula_present TBB::tbb)
+macula_test(compositor_differential_test SOURCES differential/compositor_test.cpp LINK macula_present)

@@ -12,8 +12,6 @@
 
 namespace macula {
 
-class GlContext;
-
 /// A frame as it comes from the server, decoded. Both eyes side by side.
 struct NewFrame {
     const ColorImage* color = nullptr;

@@ -4,6 +4,7 @@
 
 #include "client/present/compositor.h"
 #include "client/present/taa_kernel.h"
+#include "protocol/gl/context.h"
 
 namespace macula {
 
@@ -11,9 +12,9 @@ namespace macula {
 /// is software.
 std::unique_ptr<Compositor> make_cpu_compositor(const Display& display, const kernels::TaaWeights& weights);
 
-/// The same kernels as GL compute programs. The context must outlive the compositor and is made current on the
-/// calling thread during calls. Errors: `graphics`.
-Expected<std::unique_ptr<Compositor>> make_gl_compositor(GlContext& context, const Display& display,
+/// The same kernels as GL compute programs, on a context of its own that no thread has made current.
+/// Errors: `graphics`.
+Expected<std::unique_ptr<Compositor>> make_gl_compositor(std::unique_ptr<GlContext> context, const Display& display,
                                                          const kernels::TaaWeights& weights);
 
 }  // namespace macula

@@ -124,6 +124,19 @@ struct TaaWeights {
     float slack;         ///< widening of the colour box, for each pixel of sample distance beyond one
 };
 
+/// Precision of a pixel of the new frame: rank order in its tile, the tile's count of samples (PROTOCOL.md), and
+/// whether the lens hides it.
+KERNEL float new_precision(KERNEL_IN(TaaWeights) weights, int rank, int count, bool hidden) {
+    float seen = rank < count ? weights.traced : weights.interpolated;
+    return hidden ? 0.0F : seen;
+}
+
+/// By how much the colour box is widened in a tile with `count` samples, whose mean distance is 16 / sqrt(count).
+/// Between sparse samples there may be what the box of interpolated colours does not know.
+KERNEL float box_slack(KERNEL_IN(TaaWeights) weights, int count) {
+    return weights.slack * (16.0F / sqrt(float(max(count, 4))) - 1.0F);
+}
+
 /// How much of the history is to be believed: nothing where the surface that was seen there is another one. Two inverse
 /// depths contradict each other only as far as they lead to different places, so nothing is rejected while the
 /// eye does not move.

@@ -1,0 +1,180 @@
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include <glm/vec2.hpp>
+
+#include "client/present/make_compositor.h"
+#include "client/present/view_warp.h"
+#include "kernel_text/taa_accumulate.h"
+#include "kernel_text/taa_buffers.h"
+#include "kernel_text/taa_kernel.h"
+#include "kernel_text/taa_show.h"
+#include "masks/levels.h"
+#include "protocol/gl/buffer.h"
+#include "protocol/gl/compute.h"
+
+namespace macula {
+namespace {
+
+using kernels::kBlock_px;
+
+/// As in taa_buffers.glsl.
+struct EyeParameters {
+    kernels::ViewWarp warp;
+    glm::ivec4 sampling;
+};
+struct Parameters {
+    std::array<EyeParameters, kEyeCount> eyes;
+    glm::ivec4 size;
+    kernels::TaaWeights weights;
+    std::array<float, 2> padding;
+};
+static_assert(sizeof(Parameters) == 2 * 64 + 16 + 32);
+
+/// Four bytes a word.
+std::vector<std::uint32_t> words_of(std::span<const std::uint8_t> bytes) {
+    std::vector<std::uint32_t> words((bytes.size() + 3) / 4);
+    for (std::size_t i = 0; i < bytes.size(); ++i) words[i / 4] |= std::uint32_t{bytes[i]} << (8 * (i % 4));
+    return words;
+}
+
+class GlCompositor final : public Compositor {
+public:
+    /// The context is current.
+    GlCompositor(std::unique_ptr<GlContext> context, ComputeProgram accumulate, ComputeProgram show,
+                 const Display& display, const kernels::TaaWeights& weights)
+        : context_(std::move(context)),
+          accumulate_(std::move(accumulate)),
+          show_(std::move(show)),
+          display_(display),
+          weights_(weights),
+          width_(display.eye_width_px),
+          height_(display.eye_height_px) {
+        std::vector<std::uint8_t> hidden = hidden_pixels(display, kLeftEye);
+        const std::vector<std::uint8_t> right = hidden_pixels(display, kRightEye);
+        hidden.insert(hidden.end(), right.begin(), right.end());
+        hidden_.write(words_of(hidden));
+        const std::size_t pixels = hidden.size();
+        const std::vector<glm::uvec2> unknown(pixels, glm::uvec2(0U));
+        before_.write(unknown);
+        after_.write(unknown);
+        stable_.write(std::vector<Rgba8>(pixels, 0xFF000000U));
+        picture_.resize(pixels);
+        const std::vector<float> nothing(pixels / (kBlock_px * kBlock_px), 0.0F);
+        depth_.write(nothing);
+        depth_before_.write(nothing);
+    }
+
+    Expected<void> accumulate(const NewFrame& frame) override {
+        const auto current = CurrentContext::enter(*context_);
+        if (!current) return tl::unexpected(current.error());
+        std::swap(before_, after_);
+        std::swap(depth_before_, depth_);
+        const PerEye<Pose> poses_before = std::exchange(world_from_eye_, frame.world_from_eye);
+        const bool continues = std::exchange(has_history_, true) && frame.continues;
+        Parameters parameters = parameters_for(world_from_eye_, poses_before);
+        parameters.size.z = frame.rank_tile_size_px;
+        parameters.size.w = continues ? 1 : 0;
+        std::vector<std::uint32_t> counts;
+        for (std::size_t eye = 0; eye < kEyeCount; ++eye) {
+            const EyeSamplingMessage& sampling = *frame.sampling[eye];
+            parameters.eyes[eye].sampling =
+                glm::ivec4(sampling.phase_px, sampling.tiles_x, static_cast<int>(counts.size()));
+            for (const std::uint8_t level : sampling.level) counts.push_back(kLevelCounts[level]);
+        }
+        parameters_.write(parameters);
+        color_.write(frame.color->texels);
+        depth_.write(frame.depth->texels);
+        ranks_.write(words_of(frame.rank_tile));
+        counts_.write(counts);
+        parameters_.bind(0);
+        color_.bind(1);
+        depth_.bind(2);
+        hidden_.bind(3);
+        depth_before_.bind(4);
+        before_.bind(5);
+        after_.bind(6);
+        stable_.bind(7);
+        ranks_.bind(8);
+        counts_.bind(9);
+        dispatch(accumulate_);
+        return {};
+    }
+
+    Expected<void> show(const PerEye<Pose>& world_from_eye, ColorImage& picture) override {
+        const auto current = CurrentContext::enter(*context_);
+        if (!current) return tl::unexpected(current.error());
+        parameters_.write(parameters_for(world_from_eye, world_from_eye_));
+        parameters_.bind(0);
+        stable_.bind(1);
+        depth_.bind(2);
+        hidden_.bind(3);
+        picture_.bind(7);
+        dispatch(show_);
+        if (picture.width_px != 2 * width_ || picture.height_px != height_) picture = ColorImage(2 * width_, height_);
+        return picture_.read([&](std::span<const Rgba8> pixels) { std::ranges::copy(pixels, picture.texels.begin()); });
+    }
+
+    [[nodiscard]] std::string name() const override {
+        return "GL (" + context_->kind_name() + ", " + context_->renderer() + ")";
+    }
+
+private:
+    [[nodiscard]] Parameters parameters_for(const PerEye<Pose>& from, const PerEye<Pose>& to) const {
+        Parameters parameters{};
+        for (std::size_t eye = 0; eye < kEyeCount; ++eye) {
+            const Tangents& tangents = display_.eyes[eye].tangents;
+            parameters.eyes[eye].warp =
+                make_view_warp({to[eye], tangents, width_, height_}, {from[eye], tangents, width_, height_});
+        }
+        parameters.size = glm::ivec4(width_, height_, 0, 0);
+        parameters.weights = weights_;
+        return parameters;
+    }
+    void dispatch(const ComputeProgram& program) const {
+        program.dispatch(static_cast<unsigned>(width_ + 15) / 16, static_cast<unsigned>(height_ + 7) / 8, kEyeCount);
+    }
+
+    std::unique_ptr<GlContext> context_;
+    ComputeProgram accumulate_;
+    ComputeProgram show_;
+    Display display_;
+    kernels::TaaWeights weights_;
+    int width_;
+    int height_;
+    StorageBuffer<Parameters> parameters_{*context_};
+    StorageBuffer<Rgba8> color_{*context_};
+    StorageBuffer<float> depth_{*context_};
+    StorageBuffer<std::uint32_t> hidden_{*context_};
+    StorageBuffer<float> depth_before_{*context_};
+    StorageBuffer<glm::uvec2> before_{*context_};
+    StorageBuffer<glm::uvec2> after_{*context_};
+    StorageBuffer<Rgba8> stable_{*context_};
+    StorageBuffer<Rgba8> picture_{*context_};
+    StorageBuffer<std::uint32_t> ranks_{*context_};
+    StorageBuffer<std::uint32_t> counts_{*context_};
+    PerEye<Pose> world_from_eye_;
+    bool has_history_ = false;
+};
+
+}  // namespace
+
+Expected<std::unique_ptr<Compositor>> make_gl_compositor(std::unique_ptr<GlContext> context, const Display& display,
+                                                         const kernels::TaaWeights& weights) {
+    const auto current = CurrentContext::enter(*context);
+    if (!current) return tl::unexpected(current.error());
+    const auto build = [&](const KernelText& main) {
+        return ComputeProgram::build(*context, std::array{taa_kernel_text, taa_buffers_text, main});
+    };
+    auto accumulate = build(taa_accumulate_text);
+    if (!accumulate) return tl::unexpected(accumulate.error());
+    auto show = build(taa_show_text);
+    if (!show) return tl::unexpected(show.error());
+    return std::make_unique<GlCompositor>(std::move(context), std::move(*accumulate), std::move(*show), display,
+                                          weights);
+}
+
+}  // namespace macula
