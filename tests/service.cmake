@@ -15,3 +15,6 @@ macula_test(server_program_test
     LINK macula_transport)
 target_compile_definitions(server_program_test PRIVATE MACULA_SERVER="$<TARGET_FILE:macula-server>")
 add_dependencies(server_program_test macula-server)
+macula_bench(server_bench
+    SOURCES bench/server_bench.cpp support/peer.cpp support/small_service.cpp
+    LINK macula_service macula_tracer macula_reconstruct spdlog::spdlog GTest::gtest)

@@ -68,7 +68,7 @@ const Supplies& small_supplies() {
     return supplies;
 }
 
-RunningServer::RunningServer(ServerOptions options) {
+RunningServer::RunningServer(ServerOptions options, const Supplies& supplies) {
     auto pem = make_certificate();
     EXPECT_TRUE(pem) << pem.error().message;
     identity_.pem = *std::move(pem);
@@ -77,7 +77,7 @@ RunningServer::RunningServer(ServerOptions options) {
     EXPECT_TRUE(listener) << listener.error().message;
     options.token = identity_.credentials.token;
     server_ = std::make_unique<Server>(
-        *std::move(listener), small_supplies(), std::move(options),
+        *std::move(listener), supplies, std::move(options),
         std::make_shared<spdlog::logger>("test", std::make_shared<spdlog::sinks::null_sink_mt>()));
     outcome_ = std::async(std::launch::async, [this] { return server_->run(); });
 }

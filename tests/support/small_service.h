@@ -22,7 +22,7 @@ const Supplies& small_supplies();
 /// A server on a free loopback port, running until it goes.
 class RunningServer {
 public:
-    explicit RunningServer(ServerOptions options = {});
+    explicit RunningServer(ServerOptions options = {}, const Supplies& supplies = small_supplies());
     ~RunningServer();
 
     [[nodiscard]] std::uint16_t port() const { return server_->port(); }
