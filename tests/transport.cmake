@@ -6,3 +6,4 @@ macula_test(transport_test
     SOURCES integration/transport_test.cpp
     LINK macula_transport OpenSSL::SSL
     LABELS fast)
+macula_bench(transport_bench SOURCES bench/transport_bench.cpp LINK macula_transport)

@@ -113,10 +113,17 @@ Offset<wire::Envelope> envelope(FlatBufferBuilder& builder, Offset<Table> body) 
     return wire::CreateEnvelope(builder, wire::BodyTraits<Table>::enum_value, body.Union());
 }
 
+/// First capacity of the builder, which otherwise starts at a kilobyte and copies itself each time it doubles.
+std::size_t expected_size(const Message& message) {
+    constexpr std::size_t kWithoutPictures = std::size_t{8} << 10;
+    const auto* frame = std::get_if<Frame>(&message);
+    return frame == nullptr ? kWithoutPictures / 8 : frame->color.size() + frame->depth.size() + kWithoutPictures;
+}
+
 }  // namespace
 
 Bytes encode_message(const Message& message) {
-    FlatBufferBuilder builder;
+    FlatBufferBuilder builder(expected_size(message));
     const auto root =
         std::visit([&builder](const auto& body) { return envelope(builder, write(builder, body)); }, message);
     wire::FinishEnvelopeBuffer(builder, root);

@@ -21,14 +21,15 @@ public:
     void that(bool good, std::string_view field, const std::string& problem) {
         if (!good && !problem_) problem_ = prefix_ + std::string(field) + " " + problem;
     }
-    void number(float value, float low, float high, std::string_view field) {
-        // Written so that NaN fails.
-        that(value >= low && value <= high, field,
+    template <class Number>
+    void range(Number value, Number low, Number high, std::string_view field) {
+        if (value >= low && value <= high) return;  // NaN does not get past this
+        that(false, field,
              "is " + std::to_string(value) + ", not in " + std::to_string(low) + ".." + std::to_string(high));
     }
+    void number(float value, float low, float high, std::string_view field) { range(value, low, high, field); }
     void integer(std::int64_t value, std::int64_t low, std::int64_t high, std::string_view field) {
-        that(value >= low && value <= high, field,
-             "is " + std::to_string(value) + ", not in " + std::to_string(low) + ".." + std::to_string(high));
+        range(value, low, high, field);
     }
     void time(std::int64_t value_ns, std::string_view field) { integer(value_ns, -kMaxTime_ns, kMaxTime_ns, field); }
 
@@ -44,8 +45,11 @@ public:
     template <class T>
     void unit(T& value, std::string_view field) {
         const float length = std::sqrt(glm::dot(value, value));
-        that(std::abs(length - 1.0F) <= kUnitTolerance, field, "has length " + std::to_string(length) + ", not 1");
-        value /= length;
+        if (std::abs(length - 1.0F) <= kUnitTolerance) {
+            value /= length;
+        } else {
+            that(false, field, "has length " + std::to_string(length) + ", not 1");
+        }
     }
     void pose(Pose& value, std::string_view field) {
         unit(value.orientation, field);
@@ -148,8 +152,9 @@ void check_sampling(Check& check, const EyeSamplingMessage& sampling) {
     check.that(sampling.level.size() == static_cast<std::size_t>(std::int64_t{sampling.tiles_x} * sampling.tiles_y),
                "sampling.level",
                "has " + std::to_string(sampling.level.size()) + " entries, not one for each of the tiles");
-    const auto densest = std::max_element(sampling.level.begin(), sampling.level.end());
-    if (densest != sampling.level.end()) check.integer(*densest, 0, kMaxLevel, "sampling.level");
+    std::uint8_t densest = 0;
+    for (const std::uint8_t level : sampling.level) densest = std::max(densest, level);
+    check.integer(densest, 0, kMaxLevel, "sampling.level");
 }
 
 void check_message(Check& check, Frame& frame) {

@@ -1,36 +1,17 @@
 // Replays the corpus and mutations of it and of random messages, the same in every run.
 
 #include <algorithm>
-#include <atomic>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <new>
 #include <set>
 
 #include <gtest/gtest.h>
 
+#include "tests/support/allocation.h"
 #include "tests/support/random_messages.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
-
-namespace {
-std::atomic<std::size_t> allocated_bytes{0};
-}
-
-// Every allocation of this program is counted.
-void* operator new(std::size_t size) {
-    allocated_bytes += size;
-    if (void* memory = std::malloc(size)) return memory;
-    throw std::bad_alloc();
-}
-void operator delete(void* memory) noexcept {
-    std::free(memory);
-}
-void operator delete(void* memory, std::size_t) noexcept {
-    std::free(memory);
-}
 
 namespace macula {
 namespace {
@@ -43,9 +24,9 @@ void run(const Bytes& body) {
 
 /// Nothing is copied more than twice, and level maps have their own bound.
 void expect_bounded_memory(const Bytes& body) {
-    const std::size_t before = allocated_bytes;
+    const std::size_t before = allocated_bytes();
     static_cast<void>(decode_message(body));
-    const std::size_t used = allocated_bytes - before;
+    const std::size_t used = allocated_bytes() - before;
     ASSERT_LE(used, 2 * body.size() + (std::size_t{256} << 10));
 }
 

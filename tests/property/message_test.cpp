@@ -134,7 +134,7 @@ TEST_P(MessageRoundTrip, KeepsEveryField) {
     RecordProperty("seed", std::to_string(chosen));
     SCOPED_TRACE("MACULA_SEED=" + std::to_string(chosen));
     std::mt19937 random(chosen);
-    for (int i = 0; i < 100; ++i) {
+    for (int i = 0; i < 50; ++i) {
         const Message message = random_message(GetParam(), random);
         const Bytes body = encode_message(message);
         const Expected<Message> decoded = decode_message(body);
