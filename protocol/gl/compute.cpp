@@ -1,7 +1,10 @@
 #include "protocol/gl/compute.h"
 
+#include <algorithm>
+#include <charconv>
+#include <compare>
 #include <cstddef>
-#include <regex>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -23,17 +26,35 @@ std::string_view line_of(std::string_view text, std::size_t number) {
     return text.substr(0, text.find('\n'));
 }
 
-/// The log, followed by the source lines that it names as "part:line" (Mesa) or "part(line)" (NVIDIA).
+struct Place {
+    std::size_t part;
+    std::size_t line;
+    auto operator<=>(const Place&) const = default;
+};
+
+/// Where a line of a log points: "1:12(5): error" (Mesa), "1(12) : error" (NVIDIA), "ERROR: 1:12: " (others).
+std::optional<Place> place_of(std::string_view log_line) {
+    const std::size_t digit = log_line.find_first_of("0123456789");
+    if (digit == std::string_view::npos) return std::nullopt;
+    const char* const end = log_line.data() + log_line.size();
+    Place place{};
+    const auto part = std::from_chars(log_line.data() + digit, end, place.part);
+    if (part.ec != std::errc{} || part.ptr == end || (*part.ptr != ':' && *part.ptr != '(')) return std::nullopt;
+    if (std::from_chars(part.ptr + 1, end, place.line).ec != std::errc{}) return std::nullopt;
+    return place;
+}
+
+/// The log, followed by the source lines that it points to.
 std::string explain(const std::string& log, std::span<const KernelText> parts) {
     std::string explained = log;
-    const std::regex place(R"((?:^|\n)[^\n0-9]*(\d{1,4})[:(](\d{1,6}))");
-    std::set<std::pair<std::size_t, std::size_t>> shown;
-    for (std::sregex_iterator match(log.begin(), log.end(), place), end; match != end; ++match) {
-        const std::size_t part = std::stoul((*match)[1]);
-        const std::size_t line = std::stoul((*match)[2]);
-        if (part >= parts.size() || !shown.emplace(part, line).second) continue;
-        explained += std::string(parts[part].name) + ":" + std::to_string(line) + ": " +
-                     std::string(line_of(parts[part].text, line)) + "\n";
+    std::set<Place> shown;
+    for (std::size_t number = 1; number <= static_cast<std::size_t>(std::count(log.begin(), log.end(), '\n')) + 1;
+         ++number) {
+        const auto place = place_of(line_of(log, number));
+        if (!place || place->part >= parts.size() || !shown.insert(*place).second) continue;
+        const KernelText& part = parts[place->part];
+        explained += std::string(part.name) + ":" + std::to_string(place->line) + ": " +
+                     std::string(line_of(part.text, place->line)) + "\n";
     }
     return explained;
 }
