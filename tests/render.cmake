@@ -7,6 +7,11 @@ macula_test(kernels_test
     LINK macula_kernels
     LABELS fast)
 
+macula_test(tracer_test
+    SOURCES unit/tracer_test.cpp differential/tracer_test.cpp
+    LINK macula_tracer macula_scenes
+    LABELS fast)
+
 # Mesa's rasteriser threads are not instrumented, so that contexts stay out of the sanitizer runs ("fast").
 macula_test(kernels_gl_test SOURCES differential/kernels_gl_test.cpp LINK macula_kernels macula_gl LABELS gl)
 macula_kernel_text(kernels_gl_test
