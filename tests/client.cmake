@@ -5,3 +5,4 @@ macula_test(simulation_test SOURCES property/simulation_test.cpp LINK macula_dev
 
 macula_bench(compositor_bench SOURCES bench/compositor_bench.cpp LINK macula_present TBB::tbb)
 macula_test(compositor_differential_test SOURCES differential/compositor_test.cpp LINK macula_present)
+macula_test(client_session_test SOURCES unit/client_session_test.cpp LINK macula_stream LABELS fast)

@@ -129,7 +129,7 @@ void ClientSession::run() {
                 give_up_ns = now_ns() + options_.retry_for.count() * 1'000'000;
             }
         }
-        if (!worth_retrying(problem) || now_ns() >= give_up_ns) return give_up(std::move(problem));
+        if (stopping() || !worth_retrying(problem) || now_ns() >= give_up_ns) return give_up(std::move(problem));
         const milliseconds wait = std::min(backoff.next(), until_ns(give_up_ns) + milliseconds(1));
         log_(problem.message + "; trying again in " + std::to_string(wait.count()) + " ms");
         if (!sleep_for(wait)) return give_up({ErrorCode::network, "stopped"});
