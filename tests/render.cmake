@@ -25,6 +25,10 @@ macula_test(tracer_golden_test
     LINK macula_tracer macula_scenes
     LABELS fast)
 
+macula_test(bunny_box_golden_test
+    SOURCES golden/bunny_box_test.cpp
+    LINK macula_tracer macula_scenes macula_test_pictures)
+
 # Records rays with the tracer's own shading and times Embree alone on them.
 macula_bench(trace_bench SOURCES bench/trace_bench.cpp
     LINK macula_tracer macula_kernels macula_masks macula_scenes embree TBB::tbb)
