@@ -92,8 +92,8 @@ void frame_start(Scene& scene, const Bounds& bounds) {
         scene.near_m = 0.1F;
         return;
     }
-    // A sphere of radius r fits into a cone of 60 degrees at the distance r / sin(30 degrees).
-    const float distance = 2.0F * std::max(bounds.radius(), 1e-3F);
+    // A sphere of radius r fits into a cone of 80 degrees at the distance r / sin(40 degrees).
+    const float distance = std::max(bounds.radius(), 1e-3F) / 0.643F;
     scene.world_from_start.position_m = middle + glm::vec3(0.0F, 0.0F, distance);
     scene.near_m = std::clamp(0.05F * distance, 0.001F, 0.1F);
 }

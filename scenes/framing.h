@@ -31,7 +31,7 @@ Bounds world_bounds(const Scene& scene);
 /// Room: if the box is at least 2 m in each direction and the point 1.6 m above the middle of its floor is enclosed
 /// (of 26 directions at least 20 meet the front of a surface first), the session starts at that point.
 /// Object: otherwise it starts in front of it, on +Z at the height of its middle, where its bounding sphere fits into
-/// 60 degrees. The near depth is a twentieth of the distance to the middle, between 1 mm and 0.1 m.
+/// 80 degrees. The near depth is a twentieth of the distance to the middle, between 1 mm and 0.1 m.
 void frame_start(Scene& scene, const Bounds& bounds);
 
 }  // namespace macula

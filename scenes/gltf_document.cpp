@@ -6,6 +6,7 @@
 #include <exception>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -117,11 +118,16 @@ bool keep_image(tinygltf::Image* image, int index, std::string* /*error*/, std::
     return true;
 }
 
-/// tinygltf's lines as one sentence.
-std::string one_line(std::string text) {
-    while (!text.empty() && text.back() == '\n') text.pop_back();
-    for (std::size_t at = text.find('\n'); at != std::string::npos; at = text.find('\n', at)) text.replace(at, 1, "; ");
-    return text;
+/// tinygltf's complaints as one sentence; empty if there are none that count.
+std::string complaints(const std::string& lines) {
+    std::istringstream stream(lines);
+    std::string all;
+    for (std::string line; std::getline(stream, line);) {
+        // tinygltf demands these of a skin; glTF does not, and we do not read skins.
+        if (line.empty() || line.find("'inverseBindMatrices' property is missing") != std::string::npos) continue;
+        all += (all.empty() ? "" : "; ") + line;
+    }
+    return all;
 }
 
 std::string unknown_required_extensions(const tinygltf::Model& model) {
@@ -188,7 +194,8 @@ Expected<GltfDocument> read_gltf_document(std::span<const std::uint8_t> bytes, c
     const std::string unknown = unknown_required_extensions(document.model);
     if (!unknown.empty()) return refuse("requires the glTF extension " + unknown + ", which Macula does not know");
     if (!access.refusal.empty()) return refuse(access.refusal);
-    if (!parsed || !error.empty()) return refuse("not valid glTF: " + one_line(error));
+    const std::string complaint = complaints(error);
+    if (!parsed || !complaint.empty()) return refuse("not valid glTF: " + complaint);
     if (document.model.asset.version.rfind("2.", 0) != 0)
         return refuse("glTF version " + document.model.asset.version + "; Macula reads 2.0");
     document.image_bytes.resize(document.model.images.size());

@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include <glm/geometric.hpp>
+
 #include "scenes/mesh_attributes.h"
 
 namespace macula {
@@ -104,11 +106,14 @@ private:
     unsigned vertex_of(const Corner& corner) {
         const auto [it, added] = vertex_.try_emplace(corner, static_cast<unsigned>(mesh_.position_m.size()));
         if (!added) return it->second;
+        glm::vec3 normal = corner[2] >= 0 ? normal_[static_cast<std::size_t>(corner[2])] : glm::vec3(0.0F);
+        const float length = glm::length(normal);
+        if (length > 0.0F) normal /= length;
+        every_corner_has_normal_ = every_corner_has_normal_ && length > 0.0F && std::isfinite(length);
         every_corner_has_uv_ = every_corner_has_uv_ && corner[1] >= 0;
-        every_corner_has_normal_ = every_corner_has_normal_ && corner[2] >= 0;
         mesh_.position_m.push_back(position_m_[static_cast<std::size_t>(corner[0])]);
         mesh_.uv0.push_back(corner[1] >= 0 ? uv_[static_cast<std::size_t>(corner[1])] : glm::vec2(0.0F));
-        mesh_.normal.push_back(corner[2] >= 0 ? normal_[static_cast<std::size_t>(corner[2])] : glm::vec3(0.0F));
+        mesh_.normal.push_back(normal);
         return it->second;
     }
 

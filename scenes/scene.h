@@ -57,16 +57,17 @@ struct Material {
     TextureUse emissive_texture;
 };
 
-/// Indexed triangles of one material, in mesh space. Optional attributes are empty or one per vertex.
+/// Indexed triangles of one material, in mesh space; the corners turn counter-clockwise on the front, and a mirroring
+/// placement does not change which side that is. Optional attributes are empty or one per vertex.
 struct Mesh {
     std::string name;
     int material = 0;
     std::vector<glm::vec3> position_m;
     std::vector<glm::vec3> normal;   ///< unit; never empty after loading (flat normals are made where absent)
     std::vector<glm::vec4> tangent;  ///< unit xyz, w = +-1; present if the material has a normal texture
-    std::vector<glm::vec2> uv0;
-    std::vector<glm::vec2> uv1;
-    std::vector<glm::vec4> color;  ///< linear vertex colour, multiplies the base colour
+    std::vector<glm::vec2> uv0;      ///< present if a texture of the material uses set 0
+    std::vector<glm::vec2> uv1;      ///< present if a texture of the material uses set 1
+    std::vector<glm::vec4> color;    ///< linear vertex colour, multiplies the base colour
     std::vector<glm::uvec3> triangle;
 };
 

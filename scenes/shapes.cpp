@@ -7,6 +7,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "scenes/mesh_attributes.h"
+
 namespace macula {
 namespace {
 
@@ -14,10 +16,10 @@ constexpr float kTau = 2.0F * std::numbers::pi_v<float>;
 
 /// Triangles of a grid of vertices, row by row; a cell's corners turn counter-clockwise when the columns run to the
 /// right and the rows run up.
-void add_grid_triangles(Mesh& mesh, int columns, int row, unsigned first) {
+void add_grid_triangles(Mesh& mesh, int columns, int row) {
     const auto width = static_cast<unsigned>(columns + 1);
     for (unsigned x = 0; x < static_cast<unsigned>(columns); ++x) {
-        const unsigned a = first + static_cast<unsigned>(row) * width + x;
+        const unsigned a = static_cast<unsigned>(row) * width + x;
         mesh.triangle.emplace_back(a, a + 1, a + 1 + width);
         mesh.triangle.emplace_back(a, a + 1 + width, a + width);
     }
@@ -77,7 +79,8 @@ Mesh make_lathe(std::span<const ProfilePoint> profile, int segments) {
         }
     }
     for (std::size_t i = 1; i < profile.size(); ++i)
-        if (arc[i] > arc[i - 1]) add_grid_triangles(mesh, segments, static_cast<int>(i) - 1, 0);
+        if (arc[i] > arc[i - 1]) add_grid_triangles(mesh, segments, static_cast<int>(i) - 1);
+    drop_degenerate_triangles(mesh);  // around a pole
     return mesh;
 }
 
@@ -86,7 +89,8 @@ Mesh make_sphere(float radius_m, int segments) {
     const int rows = segments / 2;
     for (int i = 0; i <= rows; ++i) {
         const float angle = 0.5F * kTau * (static_cast<float>(i) / static_cast<float>(rows) - 0.5F);
-        const glm::vec2 normal(std::cos(angle), std::sin(angle));
+        const bool pole = i == 0 || i == rows;  // where the float cosine is not quite zero
+        const glm::vec2 normal(pole ? 0.0F : std::cos(angle), std::sin(angle));
         profile.push_back({radius_m * normal.x, radius_m * normal.y, normal});
     }
     return make_lathe(profile, segments);
@@ -121,7 +125,7 @@ Mesh make_tube(const std::function<glm::vec3(float)>& curve, float radius_m, int
             mesh.uv0.emplace_back(u, v);
         }
     }
-    for (int s = 0; s < segments; ++s) add_grid_triangles(mesh, sides, s, 0);
+    for (int s = 0; s < segments; ++s) add_grid_triangles(mesh, sides, s);
     return mesh;
 }
 

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace macula {
+
+/// A picture file in memory ("png" or "jpeg"), written by OpenImageIO. `values` has `channels` per pixel, row 0 on top;
+/// with `bits` = 16 each value v becomes 257 v.
+std::vector<std::uint8_t> encode_image(const char* format, int width, int height, int channels,
+                                       const std::vector<std::uint8_t>& values, int bits = 8);
+
+}  // namespace macula
