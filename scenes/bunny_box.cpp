@@ -166,13 +166,14 @@ void build_objects(RoomBuilder& room) {
 
     // Thin rods: what sparse sampling and temporal filtering lose first. Their radius falls from 10 to 1.5 mm.
     constexpr int kRods = 9;
+    const glm::mat4 rack = place({2.15F, 0.0F, -0.5F}, -45.0F);
+    room.object("rod rack", make_box({0.85F, 0.06F, 0.14F}), wood, rack);
     for (int i = 0; i < kRods; ++i) {
         const float radius = 0.010F * std::pow(0.79F, static_cast<float>(i));
-        const float rod_x = 2.05F + 0.08F * static_cast<float>(i);
+        const glm::vec3 foot(0.09F * (static_cast<float>(i) - 4.0F), 0.06F, 0.0F);
         room.object("rod " + std::to_string(i + 1), make_cylinder(radius, radius, 1.3F, 16), steel,
-                    place({rod_x, 0.06F, -0.2F - 0.05F * static_cast<float>(i)}));
+                    glm::translate(rack, foot));
     }
-    room.object("rod foot", make_box({0.85F, 0.06F, 0.14F}), wood, place({2.37F, 0.0F, -0.4F}, 32.0F));
 
     for (int step = 0; step < 4; ++step) {
         const float height = 0.15F * static_cast<float>(step + 1);
