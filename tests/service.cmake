@@ -18,3 +18,10 @@ add_dependencies(server_program_test macula-server)
 macula_bench(server_bench
     SOURCES bench/server_bench.cpp support/peer.cpp support/small_service.cpp
     LINK macula_service macula_tracer macula_reconstruct spdlog::spdlog GTest::gtest)
+macula_test(end_to_end_test
+    SOURCES integration/end_to_end_test.cpp support/program.cpp
+    LINK macula_base
+    TIMEOUT 300)
+target_compile_definitions(end_to_end_test PRIVATE
+    MACULA_SERVER="$<TARGET_FILE:macula-server>" MACULA_CLIENT="$<TARGET_FILE:macula-client>")
+add_dependencies(end_to_end_test macula-server macula-client)
