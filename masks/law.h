@@ -1,7 +1,5 @@
 #pragma once
 
-#include <numbers>
-#include <optional>
 #include <string>
 
 #include "masks/display.h"

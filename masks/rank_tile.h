@@ -15,7 +15,7 @@ struct RankTile {
 
     std::array<std::uint8_t, kEdge_px * kEdge_px> rank{};  ///< row-major: rank order of the pixel in its cell
 
-    [[nodiscard]] std::uint8_t at(int x, int y) const { return rank[static_cast<std::size_t>(y * kEdge_px + x)]; }
+    [[nodiscard]] std::uint8_t at(int x, int y) const { return rank[y * kEdge_px + x]; }
 };
 
 /// Of the seeds 1..24 the one whose sites have the flattest spectrum: over all levels, the structure factor peaks

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -23,7 +24,7 @@ public:
 
     /// Of the sample of `rank` in a tile on `cell` (4 y + x), among pixels that use `level`, 1..kFullLevel - 1.
     [[nodiscard]] const Box& box(int level, int cell, int rank) const {
-        return boxes_[static_cast<std::size_t>(first_[level] + cell * kLevelCounts[level] + rank)];
+        return boxes_[first_[level] + cell * kLevelCounts[level] + rank];
     }
 
 private:

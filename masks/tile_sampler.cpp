@@ -1,7 +1,7 @@
 #include "masks/tile_sampler.h"
 
 #include <algorithm>
-#include <numeric>
+#include <span>
 #include <utility>
 
 namespace macula {

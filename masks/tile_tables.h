@@ -39,7 +39,7 @@ public:
     /// Table of a level in 1..kFullLevel - 1 (a full tile is copied) for cell column and row in 0..3. The cell of
     /// tile (tx, ty) of a plan is ((origin_px + 16 t + phase_px) mod 64) / 16.
     [[nodiscard]] const CellTable& cell(int level, int cell_x, int cell_y) const {
-        return cells_[static_cast<std::size_t>((level * RankTile::kCells + cell_y) * RankTile::kCells + cell_x)];
+        return cells_[(level * RankTile::kCells + cell_y) * RankTile::kCells + cell_x];
     }
 
 private:
