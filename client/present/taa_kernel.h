@@ -113,12 +113,11 @@ KERNEL uint pack_blue_precision(vec4 history) {
     return uint(int(history.z * kColorCode + 0.5F)) | (uint(int(history.w * kPrecisionCode + 0.5F)) << 16);
 }
 
-/// How temporal accumulation weighs what it has. Colours are 0..255; a precision is that of one traced sample times
-/// some factor.
+/// How temporal accumulation weighs what it has. Colours are 0..255, precisions 0..1; 1 is that of the best history.
 struct TaaWeights {
-    float traced;        ///< precision of a pixel that was traced in this frame: 1
+    float traced;        ///< precision of a pixel that was traced in this frame: with 1 it weighs one half or more
     float interpolated;  ///< precision of a pixel that was interpolated
-    float limit;         ///< largest precision of the history; with 1, a traced pixel weighs one half
+    float limit;         ///< largest precision of the history; 0 for no history
     float moving_loss;   ///< share of its precision that the history loses when it is resampled half-way
     float disparity_px;  ///< depths whose landings differ by more contradict each other
     float slack;         ///< widening of the colour box, for each pixel of sample distance beyond one
