@@ -69,7 +69,9 @@ void Session::finish(Expected<void> outcome, const std::string& bye) {
 }
 
 void Session::fail_with(const Error& error) {
-    finish(tl::unexpected(error), error.code == ErrorCode::network ? std::string() : error.message);
+    // A Bye says that the end is meant. A client that was lost to the network, or asleep, had better come back.
+    const bool lost = error.code == ErrorCode::network || error.code == ErrorCode::timeout;
+    finish(tl::unexpected(error), lost ? std::string() : error.message);
 }
 
 void Session::read_loop() {

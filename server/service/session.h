@@ -28,8 +28,9 @@ struct SessionOptions {
     std::chrono::milliseconds silence_limit{10'000};  ///< a peer that sends nothing for so long is gone
     std::chrono::milliseconds send_limit{5'000};      ///< a peer that does not read for so long is gone
     std::chrono::milliseconds log_interval{10'000};
-    /// One frame in rendering, one in encoding, one on its way or in the client: with fewer a stage idles, with
-    /// more frames wait and grow old.
+    /// One frame in rendering, one in encoding, one on its way or in the client: with fewer a stage idles as soon
+    /// as these take about equally long, with more, frames wait and grow old. With both programs on the same two
+    /// cores, 2 and 3 gave the same frame rate, and 2 a fifth less latency at p99.
     int max_in_flight = 3;
 };
 

@@ -261,7 +261,7 @@ TEST_F(SessionTest, SilentPeerIsGivenUp) {
     const auto ended = outcome();
     ASSERT_FALSE(ended);
     EXPECT_EQ(ended.error().code, ErrorCode::timeout);
-    EXPECT_NE(bye_, "");
+    EXPECT_EQ(bye_, "");  // it may come back
 }
 
 TEST_F(SessionTest, PeerThatDoesNotReadIsGivenUp) {
