@@ -148,7 +148,7 @@ Expected<void> for_each_element(GltfContext& context, const tinygltf::Accessor& 
 Expected<const tinygltf::Accessor*> checked_accessor(GltfContext& context, int index, int components) {
     const auto& accessors = context.document.model.accessors;
     if (index < 0 || static_cast<std::size_t>(index) >= accessors.size())
-        return context.error(element_name("accessor", static_cast<std::size_t>(std::max(index, 0))), "does not exist");
+        return context.error("accessor " + std::to_string(index), "does not exist");
     const tinygltf::Accessor& accessor = accessors[static_cast<std::size_t>(index)];
     const std::string element = element_name("accessor", static_cast<std::size_t>(index), accessor.name);
     if (components_of_type(accessor.type) != components)

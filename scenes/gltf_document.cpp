@@ -180,7 +180,7 @@ Expected<GltfDocument> read_gltf_document(std::span<const std::uint8_t> bytes, c
     parser.SetImageLoader(keep_image, &document.image_bytes);
     parser.SetFsCallbacks({file_exists, expand_file_path, read_whole_file, nullptr, &access});
     std::string error;
-    std::string warning;
+    std::string warning;  // files that nobody uses are missing, or will be named by whoever misses them
     bool parsed = false;
     try {
         const auto size = static_cast<unsigned>(bytes.size());
