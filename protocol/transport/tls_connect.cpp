@@ -62,7 +62,7 @@ private:
             *result = error;
             addresses_ = std::move(found);
         });
-        const Expected<void> finished = finish(*result, "resolve");
+        Expected<void> finished = finish(*result, "resolve");
         if (finished && **result) {
             return fail(ErrorCode::network, "no address is known for host '" + host_ + "': " + (*result)->message());
         }
@@ -73,7 +73,7 @@ private:
         const auto result = std::make_shared<std::optional<error_code>>();
         asio::async_connect(connection_->socket(), addresses_,
                             [result](error_code error, const tcp::endpoint&) { *result = error; });
-        const Expected<void> finished = finish(*result, "answer");
+        Expected<void> finished = finish(*result, "answer");
         if (finished && **result) {
             return fail(ErrorCode::network, "cannot connect to " + server() + ": " + (*result)->message() +
                                                 ": check the address and that the server runs");
@@ -85,7 +85,7 @@ private:
         const auto result = std::make_shared<std::optional<error_code>>();
         const auto left = std::chrono::duration_cast<milliseconds>(deadline_ - steady_clock::now());
         connection_->handshake(asio::ssl::stream_base::client, left, [result](error_code error) { *result = error; });
-        const Expected<void> finished = finish(*result, "finish the TLS handshake");
+        Expected<void> finished = finish(*result, "finish the TLS handshake");
         if (finished && **result) {
             return fail(ErrorCode::protocol,
                         server() + " does not speak TLS 1.3: " + (*result)->message() + ": is it a Macula server?");

@@ -181,9 +181,9 @@ public:
     ~TlsListener() override { door_->close(); }
 
     Expected<std::unique_ptr<Channel>> accept(milliseconds timeout) override {
-        return door_->take(timeout).map([this](std::shared_ptr<TlsConnection> connection) -> std::unique_ptr<Channel> {
-            return std::make_unique<TlsChannel>(io_, std::move(connection));
-        });
+        Expected<std::shared_ptr<TlsConnection>> connection = door_->take(timeout);
+        if (!connection) return tl::unexpected(connection.error());
+        return std::make_unique<TlsChannel>(io_, std::move(*connection));
     }
     void close() noexcept override { door_->close(); }
     [[nodiscard]] std::uint16_t port() const override { return door_->port(); }

@@ -1,9 +1,8 @@
 // Channels over real loopback sockets: both ends of ours, and peers that misbehave.
 
+#include <algorithm>
 #include <array>
-#include <atomic>
 #include <cstring>
-#include <filesystem>
 #include <functional>
 #include <random>
 #include <thread>
@@ -14,7 +13,6 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include "protocol/base/clock.h"
 #include "protocol/transport/tls.h"
 
 namespace macula {
@@ -25,11 +23,19 @@ using std::chrono::seconds;
 constexpr milliseconds kPatience = seconds(20);  ///< for what must happen
 constexpr milliseconds kAWhile{100};             ///< for what must not
 
+/// Bytes that no wrong order, loss or mix-up leaves the same.
 Bytes random_bytes(std::size_t size, unsigned seed) {
     std::mt19937 random(seed);
-    Bytes bytes(size);
-    for (std::byte& byte : bytes) byte = static_cast<std::byte>(random());
-    return bytes;
+    std::vector<std::uint32_t> words(size / 4 + 1);
+    std::generate(words.begin(), words.end(), std::ref(random));
+    const auto* begin = reinterpret_cast<const std::byte*>(words.data());
+    return {begin, begin + size};
+}
+
+/// Compares large messages quickly under sanitizers, and without printing them.
+bool is(const Expected<Bytes>& received, const Bytes& sent) {
+    return received && received->size() == sent.size() &&
+           (sent.empty() || std::memcmp(received->data(), sent.data(), sent.size()) == 0);
 }
 
 Identity new_identity() {
@@ -144,24 +150,25 @@ TEST_F(TransportTest, MessagesOfEverySizeArriveWhole) {
                                    std::size_t{16385}, kMaxClientMessage_bytes}) {
         const Bytes body = random_bytes(size, 2);
         ASSERT_TRUE(client->send(body, kPatience));
-        EXPECT_EQ(server->receive(kPatience), body) << size;
+        EXPECT_TRUE(is(server->receive(kPatience), body)) << size;
     }
     const Bytes largest = random_bytes(kMaxServerMessage_bytes, 3);
     std::thread sender([&server = *server, &largest] { EXPECT_TRUE(server.send(largest, kPatience)); });
-    EXPECT_EQ(client->receive(kPatience), largest);
+    EXPECT_TRUE(is(client->receive(kPatience), largest));
     sender.join();
 }
 
 TEST_F(TransportTest, BothDirectionsFlowAtOnce) {
     const auto [client, server] = pair();
-    constexpr int kMessages = 40;
+    constexpr int kMessages = 20;
     const auto send_all = [](Channel& channel, std::size_t size, unsigned seed) {
         for (unsigned i = 0; i < kMessages; ++i) ASSERT_TRUE(channel.send(random_bytes(size, seed + i), kPatience));
     };
     const auto receive_all = [](Channel& channel, std::size_t size, unsigned seed) {
-        for (unsigned i = 0; i < kMessages; ++i) EXPECT_EQ(channel.receive(kPatience), random_bytes(size, seed + i));
+        for (unsigned i = 0; i < kMessages; ++i)
+            EXPECT_TRUE(is(channel.receive(kPatience), random_bytes(size, seed + i)));
     };
-    constexpr std::size_t kLarge = 300'000;
+    constexpr std::size_t kLarge = 150'000;
     std::thread a([&, &channel = *server] { send_all(channel, kLarge, 10); });
     std::thread b([&, &channel = *client] { send_all(channel, kMaxClientMessage_bytes, 90); });
     std::thread c([&, &channel = *server] { receive_all(channel, kMaxClientMessage_bytes, 90); });
