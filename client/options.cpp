@@ -25,7 +25,7 @@ std::variant<ClientOptions, int> parse_client_options(int argc, char** argv) {
         ->capture_default_str();
     app.add_option("--display", options.displays,
                    "null, png:FOLDER, png:FOLDER?every=N or mp4:FILE; may be given several times")
-        ->capture_default_str();
+        ->default_str("null");
     app.add_option("--headset", options.headset, "Display geometry: vive, desktop, or a file (masks/display.md)")
         ->capture_default_str();
     app.add_option("--sampling", options.sampling,

@@ -9,3 +9,10 @@ macula_test(client_session_test SOURCES unit/client_session_test.cpp LINK macula
 macula_bench(taa_quality SOURCES bench/taa_quality.cpp LINK macula_present macula_device macula_reconstruct TBB::tbb)
 macula_test(compositor_test SOURCES property/compositor_test.cpp LINK macula_present LABELS fast)
 macula_test(thin_wire_test SOURCES property/thin_wire_test.cpp LINK macula_present macula_reconstruct TBB::tbb)
+macula_test(picture_sink_test SOURCES unit/picture_sink_test.cpp LINK macula_present PkgConfig::FFMPEG LABELS fast)
+macula_test(client_options_test SOURCES unit/client_options_test.cpp LINK macula_client_parts LABELS fast)
+macula_test(client_program_test
+    SOURCES integration/client_program_test.cpp support/program.cpp
+    LINK macula_base)
+target_compile_definitions(client_program_test PRIVATE MACULA_CLIENT="$<TARGET_FILE:macula-client>")
+add_dependencies(client_program_test macula-client)

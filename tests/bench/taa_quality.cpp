@@ -100,7 +100,7 @@ std::vector<Config> configs() {
         {"box, slack 0", with([](TaaWeights& w) { w.slack = 0.0F; })},
         {"box, slack 16", with([](TaaWeights& w) { w.slack = 16.0F; })},
         {"box, slack 32", with([](TaaWeights& w) { w.slack = 32.0F; })},
-        {"box, slack 128", with([](TaaWeights& w) { w.slack = 128.0F; })},
+        {"box, slack 64", with([](TaaWeights& w) { w.slack = 64.0F; })},
         {"box, slack 256", with([](TaaWeights& w) { w.slack = 256.0F; })},
         {"disparity .5 px", with([](TaaWeights& w) { w.disparity_px = 0.5F; })},
         {"disparity 3 px", with([](TaaWeights& w) { w.disparity_px = 3.0F; })},
