@@ -32,3 +32,4 @@ macula_test(bunny_box_golden_test
 # Records rays with the tracer's own shading and times Embree alone on them.
 macula_bench(trace_bench SOURCES bench/trace_bench.cpp
     LINK macula_tracer macula_kernels macula_masks macula_scenes embree TBB::tbb)
+target_compile_definitions(trace_bench PRIVATE MACULA_EMBREE_MAJOR=${embree_VERSION_MAJOR})

@@ -20,7 +20,7 @@ KERNEL float linear_from_srgb(float coded) {
 
 /// Eight bits of a value in 0..1, rounded to nearest.
 KERNEL uint byte_from_unit(float value) {
-    return uint(int(value * 255.0F + 0.5F));
+    return uint(int(floor(value * 255.0F + 0.5F)));
 }
 
 /// sRGB-coded RGBA8 of linear display radiance (1 is white): R in the lowest byte, A = 255.

@@ -5,17 +5,13 @@
 #include <string>
 #include <utility>
 
-#if MACULA_EMBREE_MAJOR >= 4
-#include <embree4/rtcore.h>
-#else
-#include <embree3/rtcore.h>
-#endif
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
 
 #include <glm/gtc/quaternion.hpp>
 
 #include "server/kernels/camera.h"
+#include "server/render/embree_calls.h"
 #include "server/render/packet_shading.h"
 #include "server/render/tracer.h"
 
@@ -37,35 +33,6 @@ struct SceneDelete {
 };
 using Device = std::unique_ptr<RTCDevice, DeviceDelete>;
 using EmbreeScene = std::unique_ptr<RTCScene, SceneDelete>;
-
-// The calls that differ between Embree 3 and 4.
-void intersect(const int* valid, RTCScene scene, RTCRayHit16& rays) {
-#if MACULA_EMBREE_MAJOR >= 4
-    RTCIntersectArguments arguments;
-    rtcInitIntersectArguments(&arguments);
-    arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
-    rtcIntersect16(valid, scene, &rays, &arguments);
-#else
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-    rtcIntersect16(valid, scene, &context, &rays);
-#endif
-}
-
-void occluded(const int* valid, RTCScene scene, RTCRay16& rays) {
-#if MACULA_EMBREE_MAJOR >= 4
-    RTCOccludedArguments arguments;
-    rtcInitOccludedArguments(&arguments);
-    arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
-    rtcOccluded16(valid, scene, &rays, &arguments);
-#else
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-    rtcOccluded16(valid, scene, &context, &rays);
-#endif
-}
 
 /// Rejects hits on the back of single-sided surfaces.
 void cull_back_faces(const RTCFilterFunctionNArguments* args) {
@@ -316,7 +283,7 @@ void EmbreeTracer::trace_packet(const TraceTask& task, const Camera& camera, std
     RTCRayHit16 rays;
     HitPacket hits;
     aim(camera, plan, addresses, rays, hits);
-    intersect(valid_lanes((1U << addresses.size()) - 1U).value, scene_.get(), rays);
+    intersect_coherent(valid_lanes((1U << addresses.size()) - 1U).value, scene_.get(), rays);
     read_hits(rays, hits);
 
     SurfacePacket surfaces;
@@ -336,7 +303,7 @@ LaneMask EmbreeTracer::unshadowed(const SurfacePacket& surfaces, const LightPack
     const float far = local ? 1.0F : std::numeric_limits<float>::infinity();
     MACULA_LANE_LOOP
     for (int i = 0; i < kLaneCount; ++i) set_ray(rays, i, surfaces.position[i], light.to_light[i], far);
-    occluded(valid_lanes(light.lanes).value, scene_.get(), rays);
+    occluded_coherent(valid_lanes(light.lanes).value, scene_.get(), rays);
     LaneMask free = 0;
     for (int i = 0; i < kLaneCount; ++i) free |= static_cast<LaneMask>(rays.tfar[i] >= 0.0F) << i;
     return free & light.lanes;  // Embree sets tfar of occluded rays to minus infinity
