@@ -1,10 +1,8 @@
 #include <algorithm>
 #include <array>
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include "server/render/palette_lookup.h"
+#include "server/render/parallel_rows.h"
 #include "server/render/reconstruct_source.h"
 #include "server/render/reconstructor.h"
 
@@ -126,9 +124,9 @@ public:
         const kernels::ReconstructSource source{plan, samples, *tables_};
         const kernels::ReconstructView view = reconstruct_view(plan);
         const TileReconstructor tiles(source, view);
-        tbb::parallel_for(tbb::blocked_range<int>(1, plan.tiles_y - 1), [&](const tbb::blocked_range<int>& rows) {
+        parallel_rows(1, plan.tiles_y - 1, [&](int first_row, int last_row) {
             Patch pixels;
-            for (int tile_y = rows.begin(); tile_y != rows.end(); ++tile_y)
+            for (int tile_y = first_row; tile_y != last_row; ++tile_y)
                 for (int tile_x = 1; tile_x < plan.tiles_x - 1; ++tile_x) {
                     tiles.reconstruct(tile_x, tile_y, pixels);
                     const glm::ivec2 top_left = plan.origin_px + kTileEdge_px * glm::ivec2(tile_x, tile_y);
