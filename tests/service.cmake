@@ -8,8 +8,9 @@ macula_test(session_test
     LABELS fast)
 macula_test(server_test
     SOURCES integration/server_test.cpp support/peer.cpp support/small_service.cpp
-    LINK macula_service macula_tracer macula_reconstruct spdlog::spdlog OpenSSL::SSL
-    LABELS fast)
+    LINK macula_service macula_tracer macula_reconstruct spdlog::spdlog OpenSSL::SSL TBB::tbb
+    LABELS fast
+    TIMEOUT 600)
 macula_test(server_program_test
     SOURCES integration/server_program_test.cpp support/peer.cpp support/program.cpp
     LINK macula_transport)

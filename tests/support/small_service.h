@@ -16,7 +16,8 @@ inline constexpr float kWallDistance_m = 2.0F;
 inline constexpr Rgba8 kWallColor = 0xff00bcbc;
 
 /// Everything that a server needs, for real: Embree, tile sampling at 27 %, C++ reconstruction, x264; the scene is
-/// one unlit wall before the viewer. Made once and shared, since the tables take a moment.
+/// one unlit wall before the viewer. Made once and shared, since the tables take a moment. Encoders are told to use
+/// one thread; a test that limits oneTBB to one thread as well keeps all code on threads that sanitizers understand.
 const Supplies& small_supplies();
 
 /// A server on a free loopback port, running until it goes.
