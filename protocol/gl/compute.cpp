@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <compare>
 #include <cstddef>
 #include <optional>
 #include <set>
@@ -29,7 +28,6 @@ std::string_view line_of(std::string_view text, std::size_t number) {
 struct Place {
     std::size_t part;
     std::size_t line;
-    auto operator<=>(const Place&) const = default;
 };
 
 /// Where a line of a log points: "1:12(5): error" (Mesa), "1(12) : error" (NVIDIA), "ERROR: 1:12: " (others).
@@ -47,11 +45,11 @@ std::optional<Place> place_of(std::string_view log_line) {
 /// The log, followed by the source lines that it points to.
 std::string explain(const std::string& log, std::span<const KernelText> parts) {
     std::string explained = log;
-    std::set<Place> shown;
+    std::set<std::pair<std::size_t, std::size_t>> shown;
     for (std::size_t number = 1; number <= static_cast<std::size_t>(std::count(log.begin(), log.end(), '\n')) + 1;
          ++number) {
         const auto place = place_of(line_of(log, number));
-        if (!place || place->part >= parts.size() || !shown.insert(*place).second) continue;
+        if (!place || place->part >= parts.size() || !shown.emplace(place->part, place->line).second) continue;
         const KernelText& part = parts[place->part];
         explained += std::string(part.name) + ":" + std::to_string(place->line) + ": " +
                      std::string(line_of(part.text, place->line)) + "\n";

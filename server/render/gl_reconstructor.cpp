@@ -31,7 +31,7 @@ struct FlatTables {
         for (int table = kCellTotal; table < kFullLevel * kCellTotal; ++table) {
             const CellTable& cell =
                 tables.cell(table / kCellTotal, table % RankTile::kCells, table % kCellTotal / RankTile::kCells);
-            const auto first = static_cast<std::size_t>(table * kTileArea_px);
+            const auto first = static_cast<std::size_t>(table) * kTileArea_px;
             for (int i = 0; i < kTileArea_px; ++i) interpolations[first + i] = kernels::interpolation(cell, i);
             for (std::size_t i = 0; i < cell.palette.size(); ++i)
                 palettes[first + i] = kernels::palette_entry(cell, static_cast<int>(i));
@@ -63,7 +63,7 @@ public:
         upload(plan, samples);
         bind();
         program_.dispatch(static_cast<unsigned>(plan.tiles_x - 2), static_cast<unsigned>(plan.tiles_y - 2));
-        const auto color = pixel_colors_.read([&](std::span<const Rgba8> pixels) {
+        auto color = pixel_colors_.read([&](std::span<const Rgba8> pixels) {
             copy_rows(pixels, plan.width_px, target.color, target.color_stride_px);
         });
         if (!color) return color;
@@ -117,14 +117,14 @@ private:
 }  // namespace
 
 Expected<std::unique_ptr<Reconstructor>> make_gl_reconstructor(std::unique_ptr<GlContext> context,
-                                                               std::shared_ptr<const TileTables> tables) {
+                                                               const TileTables& tables) {
     GlContext& used = *context;
     const auto current = CurrentContext::enter(used);
     if (!current) return tl::unexpected(current.error());
     auto program =
         ComputeProgram::build(used, std::array{reconstruct_buffers_text, reconstruct_text, reconstruct_main_text});
     if (!program) return tl::unexpected(program.error());
-    return std::make_unique<GlReconstructor>(std::move(context), std::move(*program), *tables);
+    return std::make_unique<GlReconstructor>(std::move(context), std::move(*program), tables);
 }
 
 }  // namespace macula

@@ -47,6 +47,6 @@ std::unique_ptr<Reconstructor> make_cpu_reconstructor(std::shared_ptr<const Tile
 /// The same kernel as a GL compute program. The context is current on the calling thread during calls only.
 /// Errors: `graphics`.
 Expected<std::unique_ptr<Reconstructor>> make_gl_reconstructor(std::unique_ptr<GlContext> context,
-                                                               std::shared_ptr<const TileTables> tables);
+                                                               const TileTables& tables);
 
 }  // namespace macula

@@ -87,7 +87,7 @@ Expected<ReconstructorChoice> choose_reconstructor(ContextKind kind, Reconstruct
         return choice;
     }
     const bool software = (*context)->software();
-    auto gl = make_gl_reconstructor(std::move(*context), tables);
+    auto gl = make_gl_reconstructor(std::move(*context), *tables);
     if (!gl) return tl::unexpected(gl.error());
     choice.use_gl = true;
     if (on == ReconstructOn::gl || !software) {

@@ -13,7 +13,7 @@ Expected<std::unique_ptr<Reconstructor>> make_chosen(const ReconstructorChoice& 
     if (!choice.use_gl) return make_cpu_reconstructor(tables);
     auto context = make_gl_context(choice.context);
     if (!context) return tl::unexpected(context.error());
-    return make_gl_reconstructor(std::move(*context), tables);
+    return make_gl_reconstructor(std::move(*context), *tables);
 }
 
 class ChosenReconstructorFactory final : public ReconstructorFactory {

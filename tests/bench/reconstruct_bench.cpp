@@ -128,7 +128,7 @@ BENCHMARK(reference)->Arg(27)->ArgName("percent")->Unit(benchmark::kMillisecond)
 void gl(benchmark::State& state, ContextKind kind) {
     auto context = make_gl_context(kind);
     if (!context) return state.SkipWithError(context.error().message.c_str());
-    auto reconstructor = make_gl_reconstructor(std::move(*context), tables());
+    auto reconstructor = make_gl_reconstructor(std::move(*context), *tables());
     if (!reconstructor) return state.SkipWithError(reconstructor.error().message.c_str());
     state.SetLabel((*reconstructor)->name());
     measure(state, **reconstructor, static_cast<int>(state.range(0)));

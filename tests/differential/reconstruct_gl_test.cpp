@@ -46,7 +46,7 @@ std::string compare(const Picture& reference, const Picture& result) {
 std::string check_seeds(ContextKind kind, std::uint32_t first, std::uint32_t last) {
     auto context = make_gl_context(kind);
     if (!context) return context.error().message;
-    auto gl = make_gl_reconstructor(std::move(*context), test::shared_tables());
+    auto gl = make_gl_reconstructor(std::move(*context), *test::shared_tables());
     if (!gl) return gl.error().message;
     const auto reference = make_reference_reconstructor(test::shared_tables());
     for (std::uint32_t seed = first; seed <= last; ++seed) {
