@@ -49,7 +49,7 @@ struct Material {
     float normal_scale = 1.0F;
     float alpha_cutoff = 0.5F;
     bool alpha_mask = false;    ///< alpha below the cutoff is a hole
-    bool double_sided = false;  ///< otherwise back faces are invisible to primary and shadow rays
+    bool double_sided = false;  ///< otherwise back faces are invisible; they still cast shadows
     bool unlit = false;         ///< KHR_materials_unlit: radiance is the base colour
     TextureUse base_color_texture;
     TextureUse metallic_roughness_texture;  ///< G roughness, B metallic

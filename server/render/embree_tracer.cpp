@@ -60,6 +60,7 @@ void cull_and_cut(const RTCFilterFunctionNArguments* args) {
     cut_holes(args);
 }
 
+/// For rays that look. To shadow rays both sides of any surface are opaque, and only holes matter.
 RTCFilterFunctionN filter_of(const Material& material) {
     if (material.alpha_mask) return material.double_sided ? cut_holes : cull_and_cut;
     return material.double_sided ? nullptr : cull_back_faces;
@@ -89,10 +90,9 @@ Expected<void> add_geometry(RTCDevice device, RTCScene scene, const Instance& in
     rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, shading.triangle, 0,
                                sizeof(glm::uvec3), mesh.triangle.size());
     rtcSetGeometryUserData(geometry, const_cast<ShadingInstance*>(&shading));
-    if (const RTCFilterFunctionN filter = filter_of(*shading.material)) {
-        rtcSetGeometryIntersectFilterFunction(geometry, filter);
-        rtcSetGeometryOccludedFilterFunction(geometry, filter);
-    }
+    const Material& material = *shading.material;
+    if (const RTCFilterFunctionN filter = filter_of(material)) rtcSetGeometryIntersectFilterFunction(geometry, filter);
+    if (material.alpha_mask) rtcSetGeometryOccludedFilterFunction(geometry, cut_holes);
     rtcCommitGeometry(geometry);
     rtcAttachGeometryByID(scene, geometry, index);
     rtcReleaseGeometry(geometry);
