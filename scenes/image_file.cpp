@@ -26,6 +26,20 @@ bool is_jpeg(std::span<const std::uint8_t> bytes) {
     return bytes.size() >= 3 && bytes[0] == 0xFF && bytes[1] == 0xD8 && bytes[2] == 0xFF;
 }
 
+/// Walks the chunks (length, type, data, checksum) to IEND. OpenImageIO 2.4 leaks where libpng runs out of bytes.
+bool is_cut_off_png(std::span<const std::uint8_t> bytes) {
+    constexpr std::size_t kAroundData = 12;
+    std::span<const std::uint8_t> rest = bytes.subspan(kPngSignature.size());
+    while (rest.size() >= kAroundData) {
+        const std::size_t length = std::size_t{rest[0]} << 24U | std::size_t{rest[1]} << 16U |
+                                   std::size_t{rest[2]} << 8U | std::size_t{rest[3]};
+        if (length > rest.size() - kAroundData) return true;
+        if (std::memcmp(&rest[4], "IEND", 4) == 0) return false;
+        rest = rest.subspan(kAroundData + length);
+    }
+    return true;
+}
+
 /// Position of the last marker FF `code`; -1 if there is none.
 std::ptrdiff_t last_marker(std::span<const std::uint8_t> bytes, std::uint8_t code) {
     for (std::size_t i = bytes.size(); i >= 2; --i)
@@ -87,6 +101,7 @@ Expected<TextureImage> decode_image(std::span<const std::uint8_t> bytes, std::si
                                     std::size_t max_texels) {
     const bool png = is_png(bytes);
     if (!png && !is_jpeg(bytes)) return fail(ErrorCode::input_file, "it is neither PNG nor JPEG");
+    if (png && is_cut_off_png(bytes)) return fail(ErrorCode::input_file, "the PNG data is cut off");
     if (!png && is_cut_off_jpeg(bytes)) return fail(ErrorCode::input_file, "the JPEG data is cut off");
     try {
         return decode(bytes, png ? "png" : "jpeg", max_side_px, max_texels);

@@ -206,6 +206,13 @@ const std::vector<Refusal>& refusals() {
          "image 0: it is neither PNG nor JPEG"},
         {"PNG that is cut off",
          [](auto& b) { use_texture(b, without_end(encode_image("png", 16, 16, 3, Bytes(768, 9)))); },
+         "image 0: the PNG data is cut off"},
+        {"PNG with a wrong byte",
+         [](auto& b) {
+             Bytes png = encode_image("png", 16, 16, 3, Bytes(768, 9));
+             png[png.size() - 20] ^= 1U;
+             use_texture(b, png);
+         },
          "image 0: it cannot be decoded"},
         {"JPEG that is cut off",
          [](auto& b) { use_texture(b, without_end(encode_image("jpeg", 16, 16, 3, Bytes(768, 9)))); },
@@ -378,7 +385,7 @@ TEST_F(GltfFiles, MissingFiles) {
 
 TEST_F(GltfFiles, BrokenPicture) {
     write("scene/broken.png", {0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n', 1, 2, 3});
-    expect_refused("a%20b.bin", "broken.png", "image 0 (\"broken.png\"): it cannot be decoded");
+    expect_refused("a%20b.bin", "broken.png", "image 0 (\"broken.png\"): the PNG data is cut off");
 }
 
 TEST(LoadScene, UnknownName) {
