@@ -162,7 +162,7 @@ Expected<void> run(const Options& options, const Logger& logger) {
     server_options.token = identity->credentials.token;
     server_options.max_sessions = options.max_clients;
     Server server(*std::move(listener), std::move(supplies), server_options, logger);
-    logger->info("listening on {}:{}", endpoint->address.empty() ? "*" : endpoint->address, server.port());
+    logger->info("listening on {}:{}", options.listen.substr(0, options.listen.rfind(':')), server.port());
     return serve(server);
 }
 

@@ -74,7 +74,7 @@ Expected<Endpoint> parse_endpoint(const std::string& text) {
     if (error != std::errc() || stop != end) return fail(ErrorCode::option, advice);
 
     std::string address = text.substr(0, colon);
-    const bool bracketed = address.size() > 2 && address.front() == '[' && address.back() == ']';
+    const bool bracketed = address.size() >= 2 && address.front() == '[' && address.back() == ']';
     if (bracketed) address = address.substr(1, address.size() - 2);
     if (address.empty() || bracketed != (address.find(':') != std::string::npos))
         return fail(ErrorCode::option, advice);

@@ -26,3 +26,8 @@ macula_test(end_to_end_test
 target_compile_definitions(end_to_end_test PRIVATE
     MACULA_SERVER="$<TARGET_FILE:macula-server>" MACULA_CLIENT="$<TARGET_FILE:macula-client>")
 add_dependencies(end_to_end_test macula-server macula-client)
+macula_test(server_options_test
+    SOURCES unit/server_options_test.cpp ${PROJECT_SOURCE_DIR}/server/options.cpp
+    LINK macula_base CLI11::CLI11
+    LABELS fast)
+target_compile_definitions(server_options_test PRIVATE MACULA_VERSION="${PROJECT_VERSION}")
