@@ -109,7 +109,7 @@ double Report::traced_share() const {
 double Report::stage_ms(std::size_t stage, double quantile) const {
     std::vector<float> values = stages_ms_[stage];
     if (values.empty()) return 0.0;
-    const auto at = static_cast<std::ptrdiff_t>(quantile * static_cast<double>(values.size() - 1) + 0.5);
+    const auto at = std::lround(quantile * static_cast<double>(values.size() - 1));
     std::ranges::nth_element(values, values.begin() + at);
     return static_cast<double>(values[static_cast<std::size_t>(at)]);
 }

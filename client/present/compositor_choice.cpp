@@ -25,7 +25,8 @@ struct MadeUpFrame {
         sampling.tiles_x = (display.eye_width_px + kTileEdge_px - 1) / kTileEdge_px;
         sampling.tiles_y = (display.eye_height_px + kTileEdge_px - 1) / kTileEdge_px;
         const std::uint8_t quarter = 13;
-        sampling.level.assign(static_cast<std::size_t>(sampling.tiles_x * sampling.tiles_y), quarter);
+        sampling.level.assign(static_cast<std::size_t>(sampling.tiles_x) * static_cast<std::size_t>(sampling.tiles_y),
+                              quarter);
         frame.color = &color;
         frame.depth = &depth;
         frame.sampling = {&sampling, &sampling};

@@ -82,10 +82,15 @@ KERNEL vec4 unpack_color(uint rgba) {
     return vec4(float(int(rgba & 255U)), float(int((rgba >> 8) & 255U)), float(int((rgba >> 16) & 255U)), 255.0F);
 }
 
+/// Nearest whole number of a value that is not negative.
+KERNEL uint rounded(float value) {
+    float half_more = value + 0.5F;
+    return uint(int(half_more));
+}
+
 /// Channels 0..255.
 KERNEL uint pack_color(vec4 color) {
-    return uint(int(color.x + 0.5F)) | (uint(int(color.y + 0.5F)) << 8) | (uint(int(color.z + 0.5F)) << 16) |
-           0xFF000000U;
+    return rounded(color.x) | (rounded(color.y) << 8) | (rounded(color.z) << 16) | 0xFF000000U;
 }
 
 KERNEL vec4 bilinear(vec4 upper_left, vec4 upper_right, vec4 lower_left, vec4 lower_right, float right, float lower) {
@@ -106,11 +111,11 @@ KERNEL vec4 unpack_history(uint red_green, uint blue_precision) {
 }
 
 KERNEL uint pack_red_green(vec4 history) {
-    return uint(int(history.x * kColorCode + 0.5F)) | (uint(int(history.y * kColorCode + 0.5F)) << 16);
+    return rounded(history.x * kColorCode) | (rounded(history.y * kColorCode) << 16);
 }
 
 KERNEL uint pack_blue_precision(vec4 history) {
-    return uint(int(history.z * kColorCode + 0.5F)) | (uint(int(history.w * kPrecisionCode + 0.5F)) << 16);
+    return rounded(history.z * kColorCode) | (rounded(history.w * kPrecisionCode) << 16);
 }
 
 /// How temporal accumulation weighs what it has. Colours are 0..255, precisions 0..1; 1 is that of the best history.

@@ -171,7 +171,7 @@ Error ClientSession::serve(Channel& channel, const std::shared_ptr<const Welcome
     log_("connected to " + channel.peer() + ": " + welcome->server_name + ", scene " + welcome->scene_name +
          ", sampling " + welcome->sampling + ", " + welcome->renderer);
 
-    std::jthread sender([this, &channel](std::stop_token stop) { send_until_closed(channel, std::move(stop)); });
+    std::jthread sender([this, &channel](const std::stop_token& stop) { send_until_closed(channel, stop); });
     Error problem;
     while (true) {
         const auto body = receive(channel, options_.silence_timeout);
@@ -210,7 +210,7 @@ Expected<Bytes> ClientSession::receive(Channel& channel, milliseconds timeout) {
     return fail(ErrorCode::network, "stopped");
 }
 
-void ClientSession::send_until_closed(Channel& channel, std::stop_token stop) {
+void ClientSession::send_until_closed(Channel& channel, const std::stop_token& stop) {
     std::int64_t next_ping_ns = 0;
     while (!stop.stop_requested()) {
         if (now_ns() >= next_ping_ns) {

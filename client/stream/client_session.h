@@ -77,7 +77,7 @@ private:
     void run();
     Expected<std::shared_ptr<const Welcome>> shake_hands(Channel& channel);
     Error serve(Channel& channel, const std::shared_ptr<const Welcome>& welcome);
-    void send_until_closed(Channel& channel, std::stop_token stop);
+    void send_until_closed(Channel& channel, const std::stop_token& stop);
     Expected<void> handle(Message message, std::size_t bytes, FrameDecoder& decoder,
                           const std::shared_ptr<const Welcome>& welcome);
     void handle_frame(Frame frame, std::size_t bytes, FrameDecoder& decoder,
