@@ -48,6 +48,11 @@ private:
     sigset_t set_{};
 };
 
+/// --seconds; 0: no limit.
+std::int64_t length_ns(const ClientOptions& options) {
+    return static_cast<std::int64_t>(options.seconds * static_cast<double>(kSecond_ns));
+}
+
 /// What one run of the client consists of.
 struct Client {
     ClientOptions options;
@@ -114,7 +119,7 @@ Expected<void> show_frames(Client& client, ClientSession& session, const Signals
     std::optional<std::int64_t> ended_ns;
     std::uint64_t connection = 0;
     ColorImage picture;
-    const std::int64_t limit_ns = static_cast<std::int64_t>(client.options.seconds * static_cast<double>(kSecond_ns));
+    const std::int64_t limit_ns = length_ns(client.options);
     const auto frame_limit = static_cast<std::uint64_t>(client.options.frames);
     Expected<void> result;
     while (result && !signals.raised()) {
@@ -176,7 +181,22 @@ Expected<Client> make_client(const ClientOptions& options, const Logger& logger)
                   std::move(*sinks), std::move(*compositor), std::move(*report), logger};
 }
 
+/// --connect none: the recording that a session would have made, without the session.
+Expected<void> record_only(const ClientOptions& options, const Logger& logger) {
+    if (options.record.empty() || options.seconds <= 0)
+        return fail(ErrorCode::option, "--connect none only records: it needs --record FILE and --seconds above 0");
+    auto source = make_source(options.gaze, [&](const std::string& line) { logger->warn(line); });
+    if (!source) return tl::unexpected(source.error());
+    auto recorder = Recorder::open(options.record);
+    if (!recorder) return tl::unexpected(recorder.error());
+    const std::uint64_t count = record(**source, **recorder, length_ns(options));
+    if (auto closed = (*recorder)->close(); !closed) return closed;
+    logger->info("{}: {} samples in {}", (*source)->name(), count, options.record);
+    return {};
+}
+
 Expected<void> run(const ClientOptions& options, const Logger& logger, const Signals& signals) {
+    if (options.connect == "none") return record_only(options, logger);
     auto client = make_client(options, logger);
     if (!client) return tl::unexpected(client.error());
     const auto server = parse_server_address(options.connect);

@@ -19,7 +19,9 @@ std::variant<ClientOptions, int> parse_client_options(int argc, char** argv) {
     app.allow_config_extras(CLI::config_extras_mode::error);
     app.add_flag("--print-config", print_config, "Print the options in effect as TOML, and end")->configurable(false);
 
-    app.add_option("--connect", options.connect, "Server: HOST, HOST:PORT or [IPV6]:PORT")->capture_default_str();
+    app.add_option("--connect", options.connect,
+                   "Server: HOST, HOST:PORT or [IPV6]:PORT; none: only --record, for --seconds, at once")
+        ->capture_default_str();
     app.add_option("--gaze", options.gaze,
                    "Head and eyes: sim:SEED, replay:FILE, or replay:FILE?loop (client/device/RECORDING.md)")
         ->capture_default_str();

@@ -54,4 +54,16 @@ Expected<void> Recorder::close() {
     return {};
 }
 
+std::uint64_t record(TrackSource& source, Recorder& recorder, std::int64_t length_ns) {
+    source.begin(0);
+    std::uint64_t count = 0;
+    for (auto due_ns = source.due_ns(); due_ns && *due_ns <= length_ns; due_ns = source.due_ns()) {
+        while (const auto sample = source.next(*due_ns)) {
+            recorder.write(*sample);
+            ++count;
+        }
+    }
+    return count;
+}
+
 }  // namespace macula

@@ -29,6 +29,10 @@ private:
     std::optional<std::int64_t> first_ns_;
 };
 
+/// Writes what a source delivers in its first `length_ns`, or until it ends, without waiting: the source's own clock
+/// is run through. Returns the samples written.
+std::uint64_t record(TrackSource& source, Recorder& recorder, std::int64_t length_ns);
+
 /// One row without its end of line: enough digits that every float is read back as it was.
 std::string recording_row(const DeviceSample& sample);
 

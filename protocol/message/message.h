@@ -83,9 +83,9 @@ struct Track {
     PerEye<GazeSample> gaze;
 };
 
-/// How one eye of a frame was sampled: which pixels were traced. Pixel (x, y) was traced if and only if
-/// rank_tile[(y + phase.y) mod size][(x + phase.x) mod size] < count[tile], with tile column
-/// (x + phase.x mod 16) / 16 and row (y + phase.y mod 16) / 16 of this map.
+/// How one eye of a frame was sampled: which pixels were traced. A pixel (x, y) that the lens shows was traced if and
+/// only if rank_tile[(y + phase.y) mod size][(x + phase.x) mod size] < count[tile], with tile column (x + phase.x mod
+/// 16) / 16 and row (y + phase.y mod 16) / 16 of this map.
 struct EyeSamplingMessage {
     glm::ivec2 phase_px = glm::ivec2(0);
     int tiles_x = 0;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <csignal>
+#include <fstream>
+#include <iterator>
 #include <string>
 #include <utility>
 #include <vector>
@@ -45,6 +47,17 @@ protected:
     }
     TemporaryFolder folder_;
 };
+
+TEST_F(ClientProgram, RecordsWithoutAServer) {
+    const std::string path = (folder_.path() / "sim.csv").string();
+    expect_end({"--connect", "none"}, ErrorCode::option, "--record");
+    Program client(kClient, {"--connect", "none", "--gaze", "sim:3", "--seconds", "2", "--record", path});
+    EXPECT_EQ(client.wait(), 0) << client.output();
+    // What it wrote is a recording: a client without a server reads it and then finds nobody.
+    expect_end({"--gaze", "replay:" + path}, ErrorCode::network, "recording");
+    std::ifstream file(path);
+    EXPECT_GT(std::count(std::istreambuf_iterator<char>(file), {}, '\n'), 200);
+}
 
 TEST_F(ClientProgram, SaysWhatIsWrong) {
     expect_end({}, ErrorCode::network, "127.0.0.1");
