@@ -86,7 +86,7 @@ step "Client: $headset, $sampling % sampling, $gaze, $seconds s"
 status=0
 "$client" --connect "127.0.0.1:$port" --state "$out/state" --gaze "$gaze" --seconds "$seconds" \
     --headset "$headset" --sampling "$sampling" \
-    --display "png:$out/frames?every=15" --display "mp4:$out/video.mp4" \
+    --display "png:$out/frames?every=30" --display "mp4:$out/video.mp4" \
     --stats "$out/frames.csv" --summary "$out/summary.txt" || status=$?
 if [ "$status" -ne 0 ]; then
     echo "demo: the client ended with code $status; the server's log is $out/server.log" >&2
