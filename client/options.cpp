@@ -1,24 +1,16 @@
 #include "client/options.h"
 
 #include <charconv>
-#include <iostream>
 
-#include <CLI/CLI.hpp>
-
+#include "protocol/base/command_line.h"
 #include "protocol/transport/tls.h"
 
 namespace macula {
 
 std::variant<ClientOptions, int> parse_client_options(int argc, char** argv) {
     ClientOptions options;
-    bool print_config = false;
     CLI::App app{"macula-client: sends head and gaze to a server and shows the frames that come back.",
                  "macula-client"};
-    app.set_version_flag("--version", "macula-client " MACULA_VERSION);
-    app.set_config("--config", "", "TOML file with these options; the command line wins over it");
-    app.allow_config_extras(CLI::config_extras_mode::error);
-    app.add_flag("--print-config", print_config, "Print the options in effect as TOML, and end")->configurable(false);
-
     app.add_option("--connect", options.connect,
                    "Server: HOST, HOST:PORT or [IPV6]:PORT; none: only --record, for --seconds, at once")
         ->capture_default_str();
@@ -63,18 +55,7 @@ std::variant<ClientOptions, int> parse_client_options(int argc, char** argv) {
         ->check(CLI::IsMember({"debug", "info", "warning", "error"}))
         ->capture_default_str();
 
-    try {
-        app.parse(argc, argv);
-        if (print_config) {
-            std::cout << app.config_to_str(true, true);
-            return 0;
-        }
-    } catch (const CLI::Success& success) {  // --help, --version
-        return app.exit(success);
-    } catch (const CLI::Error& error) {
-        std::cerr << "macula-client: " << error.what() << "; see macula-client --help\n";
-        return static_cast<int>(ErrorCode::option);
-    }
+    if (const auto exit_code = read_command_line(app, MACULA_VERSION, argc, argv)) return *exit_code;
     return options;
 }
 

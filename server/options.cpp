@@ -1,22 +1,15 @@
 #include "server/options.h"
 
 #include <charconv>
-#include <iostream>
 #include <map>
 
-#include <CLI/CLI.hpp>
+#include "protocol/base/command_line.h"
 
 namespace macula {
 
 std::variant<Options, int> parse_options(int argc, char** argv) {
     Options options;
-    bool print_config = false;
     CLI::App app{"macula-server: ray-traces foveated stereo frames for the gaze that a client sends.", "macula-server"};
-    app.set_version_flag("--version", "macula-server " MACULA_VERSION);
-    app.set_config("--config", "", "TOML file with these options; the command line wins over it");
-    app.allow_config_extras(CLI::config_extras_mode::error);
-    app.add_flag("--print-config", print_config, "Print the options in effect as TOML, and end")->configurable(false);
-
     app.add_option("--scene", options.scene, "bunny-box, or a .gltf or .glb file")->capture_default_str();
     app.add_option("--listen", options.listen, "ADDRESS:PORT, [IPV6]:PORT, or *:PORT for every address; port 0: any")
         ->capture_default_str();
@@ -48,18 +41,7 @@ std::variant<Options, int> parse_options(int argc, char** argv) {
         ->check(CLI::IsMember({"debug", "info", "warning", "error"}))
         ->capture_default_str();
 
-    try {
-        app.parse(argc, argv);
-        if (print_config) {
-            std::cout << app.config_to_str(true, true);
-            return 0;
-        }
-    } catch (const CLI::Success& success) {  // --help, --version
-        return app.exit(success);
-    } catch (const CLI::Error& error) {
-        std::cerr << "macula-server: " << error.what() << "; see macula-server --help\n";
-        return static_cast<int>(ErrorCode::option);
-    }
+    if (const auto exit_code = read_command_line(app, MACULA_VERSION, argc, argv)) return *exit_code;
     return options;
 }
 

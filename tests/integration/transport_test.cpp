@@ -7,17 +7,16 @@
 #include <random>
 #include <thread>
 
-#include <arpa/inet.h>
 #include <gtest/gtest.h>
-#include <openssl/ssl.h>
-#include <sys/socket.h>
-#include <unistd.h>
 
 #include "protocol/transport/tls.h"
+#include "tests/support/raw_peer.h"
 
 namespace macula {
 namespace {
 
+using macula::testing::RawSocket;
+using macula::testing::RawTls;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 constexpr milliseconds kPatience = seconds(20);  ///< for what must happen
@@ -45,66 +44,7 @@ Identity new_identity() {
     return identity;
 }
 
-/// Plain TCP to a port of this machine.
-class RawSocket {
-public:
-    explicit RawSocket(std::uint16_t port) : descriptor_(::socket(AF_INET, SOCK_STREAM, 0)) {
-        sockaddr_in address{};
-        address.sin_family = AF_INET;
-        address.sin_port = htons(port);
-        address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-        EXPECT_EQ(::connect(descriptor_, reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
-    }
-    ~RawSocket() { ::close(descriptor_); }
-    RawSocket(const RawSocket&) = delete;
-    RawSocket& operator=(const RawSocket&) = delete;
-    [[nodiscard]] int get() const { return descriptor_; }
-    void send(const std::string& text) const {
-        EXPECT_EQ(::send(descriptor_, text.data(), text.size(), MSG_NOSIGNAL), static_cast<ssize_t>(text.size()));
-    }
-    /// True when the other side has closed.
-    [[nodiscard]] bool ended() const {
-        std::array<char, 4096> buffer{};
-        for (;;) {
-            const ssize_t got = ::recv(descriptor_, buffer.data(), buffer.size(), 0);
-            if (got <= 0) return true;
-        }
-    }
-
-private:
-    int descriptor_;
-};
-
-/// A TLS client that frames nothing by itself.
-class RawTls {
-public:
-    explicit RawTls(std::uint16_t port, int version = TLS1_3_VERSION)
-        : socket_(port), context_(SSL_CTX_new(TLS_client_method())) {
-        SSL_CTX_set_max_proto_version(context_, version);
-        tls_ = SSL_new(context_);
-        SSL_set_fd(tls_, socket_.get());
-        connected_ = SSL_connect(tls_) == 1;
-    }
-    ~RawTls() {
-        SSL_free(tls_);
-        SSL_CTX_free(context_);
-    }
-    RawTls(const RawTls&) = delete;
-    RawTls& operator=(const RawTls&) = delete;
-    [[nodiscard]] bool connected() const { return connected_; }
-    [[nodiscard]] const RawSocket& socket() const { return socket_; }
-    void write(const Bytes& bytes) const {
-        EXPECT_EQ(SSL_write(tls_, bytes.data(), static_cast<int>(bytes.size())), static_cast<int>(bytes.size()));
-    }
-
-private:
-    RawSocket socket_;
-    SSL_CTX* context_;
-    SSL* tls_ = nullptr;
-    bool connected_ = false;
-};
-
-class TransportTest : public testing::Test {
+class TransportTest : public ::testing::Test {
 protected:
     void SetUp() override {
         identity_ = new_identity();
@@ -284,8 +224,8 @@ TEST_F(TransportTest, ServerThatNeverAnswersTimesOut) {
 
 TEST_F(TransportTest, GarbageInTheHandshakeDisturbsNobody) {
     const RawSocket browser(listener_->port());
-    browser.send("GET / HTTP/1.1\r\nHost: example\r\n\r\n");
-    EXPECT_TRUE(browser.ended());
+    EXPECT_TRUE(browser.send("GET / HTTP/1.1\r\nHost: example\r\n\r\n"));
+    browser.wait_for_end();
     EXPECT_EQ(listener_->accept(kAWhile).error().code, ErrorCode::timeout);
     expect_service();
 }
@@ -300,7 +240,7 @@ TEST_F(TransportTest, SlowHandshakesHoldUpNobodyAndEnd) {
     std::vector<std::unique_ptr<RawSocket>> silent;
     for (int i = 0; i < 12; ++i) silent.push_back(std::make_unique<RawSocket>(listener_->port()));
     expect_service();
-    for (const auto& socket : silent) EXPECT_TRUE(socket->ended());
+    for (const auto& socket : silent) socket->wait_for_end();
 }
 
 TEST_F(TransportTest, ConnectionsThatNobodyAcceptsAreBounded) {
@@ -318,12 +258,12 @@ TEST_F(TransportTest, OversizedLengthIsRefused) {
     ASSERT_TRUE(peer.connected());
     const Expected<std::unique_ptr<Channel>> server = listener_->accept(kPatience);
     ASSERT_TRUE(server) << server.error().message;
-    peer.write({std::byte{1}, std::byte{0}, std::byte{1}, std::byte{0}});  // 65537
+    EXPECT_TRUE(peer.write({std::byte{1}, std::byte{0}, std::byte{1}, std::byte{0}}));  // 65537
     const Expected<Bytes> body = (*server)->receive(kPatience);
     ASSERT_FALSE(body);
     EXPECT_EQ(body.error().code, ErrorCode::protocol);
     EXPECT_NE(body.error().message.find("65537"), std::string::npos) << body.error().message;
-    EXPECT_TRUE(peer.socket().ended());
+    peer.socket().wait_for_end();
     expect_service();
 }
 
@@ -339,10 +279,10 @@ TEST_F(TransportTest, MessageThatArrivesInPiecesIsKeptAcrossTimeouts) {
     const Expected<std::unique_ptr<Channel>> server = listener_->accept(kPatience);
     ASSERT_TRUE(server) << server.error().message;
     for (const Bytes& piece : {Bytes{std::byte{3}}, Bytes(3), Bytes(1, std::byte{5})}) {
-        peer.write(piece);
+        EXPECT_TRUE(peer.write(piece));
         EXPECT_EQ((*server)->receive(kAWhile).error().code, ErrorCode::timeout);
     }
-    peer.write(Bytes(2, std::byte{6}));
+    EXPECT_TRUE(peer.write(Bytes(2, std::byte{6})));
     EXPECT_EQ((*server)->receive(kPatience), (Bytes{std::byte{5}, std::byte{6}, std::byte{6}}));
 }
 
@@ -364,7 +304,7 @@ TEST_F(TransportTest, PeerKilledInTheMiddleOfAMessage) {
     auto peer = std::make_unique<RawTls>(listener_->port());
     const Expected<std::unique_ptr<Channel>> server = listener_->accept(kPatience);
     ASSERT_TRUE(server) << server.error().message;
-    peer->write({std::byte{100}, std::byte{0}, std::byte{0}, std::byte{0}, std::byte{1}});
+    EXPECT_TRUE(peer->write({std::byte{100}, std::byte{0}, std::byte{0}, std::byte{0}, std::byte{1}}));
     peer.reset();
     const Expected<Bytes> body = (*server)->receive(kPatience);
     ASSERT_FALSE(body);

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include <arpa/inet.h>
@@ -28,6 +29,9 @@ public:
 
     [[nodiscard]] int get() const { return descriptor_; }
     [[nodiscard]] bool connected() const { return connected_; }
+    [[nodiscard]] bool send(const std::string& text) const {
+        return ::send(descriptor_, text.data(), text.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(text.size());
+    }
     /// Waits until the other side has closed; what it still says is thrown away.
     void wait_for_end() const {
         std::array<char, 4096> buffer{};
@@ -43,7 +47,9 @@ private:
 /// A TLS client that frames nothing by itself.
 class RawTls {
 public:
-    explicit RawTls(std::uint16_t port) : socket_(port), context_(SSL_CTX_new(TLS_client_method())) {
+    explicit RawTls(std::uint16_t port, int highest_version = TLS1_3_VERSION)
+        : socket_(port), context_(SSL_CTX_new(TLS_client_method())) {
+        SSL_CTX_set_max_proto_version(context_, highest_version);
         tls_ = SSL_new(context_);
         SSL_set_fd(tls_, socket_.get());
         connected_ = SSL_connect(tls_) == 1;
