@@ -145,6 +145,10 @@ private:
 Expected<Mesh> read_obj(const std::string& path) {
     std::ifstream file(path);
     if (!file) return fail(ErrorCode::input_file, "cannot open " + path);
+    return parse_obj(file, path);
+}
+
+Expected<Mesh> parse_obj(std::istream& file, const std::string& path) {
     ObjReader reader;
     std::string line;
     for (std::size_t number = 1; std::getline(file, line); ++number) {

@@ -1,5 +1,5 @@
 macula_test(recording_test SOURCES unit/recording_test.cpp LINK macula_device LABELS fast)
-macula_test(recording_fuzz_test SOURCES unit/recording_fuzz_test.cpp fuzz/recording_fuzz.cpp LINK macula_device
+macula_test(recording_fuzz_test SOURCES fuzz/recording_fuzz_test.cpp fuzz/recording_fuzz.cpp LINK macula_device
     LABELS fast)
 macula_test(simulation_test SOURCES property/simulation_test.cpp LINK macula_device LABELS fast)
 

@@ -11,7 +11,8 @@ clang-format --dry-run --Werror "${sources[@]}"
 echo "clang-format: ${#sources[@]} files clean"
 
 build=build/release
-[ -f $build/compile_commands.json ] || cmake --preset release >/dev/null
+cmake --preset release >/dev/null
+cmake --build --preset release -- --quiet  # clang-tidy needs what the build generates
 mapfile -t units < <(printf '%s\n' "${sources[@]}" | grep -E '^(protocol|masks|scenes|server|client)/.*\.cpp$')
 printf '%s\n' "${units[@]}" | xargs -P "$(nproc)" -n 4 clang-tidy -p $build --quiet 2>/dev/null
 echo "clang-tidy: ${#units[@]} files clean"

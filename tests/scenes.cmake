@@ -14,3 +14,4 @@ macula_test(gltf_fuzz_test
     SOURCES fuzz/gltf_fuzz.cpp fuzz/gltf_fuzz_test.cpp
     LINK macula_test_gltf
     LABELS fast)
+macula_test(obj_fuzz_test SOURCES fuzz/obj_fuzz.cpp fuzz/obj_fuzz_test.cpp LINK macula_scenes LABELS fast)

@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/text_mutation.h"
+
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
 namespace macula {
@@ -49,25 +51,7 @@ TEST(DisplayFuzz, MutationsHoldTheContract) {
                                              ",", "0.001", "4096", "-20",  "1e-9", "true", "[0, 0]", "\xff"};
     const std::vector<std::string> texts = corpus();
     for (int i = 0; i < 10'000; ++i) {
-        std::string text = texts[random() % texts.size()];
-        for (unsigned edits = random() % 4 + 1; edits > 0; --edits) {
-            const std::size_t at = random() % (text.size() + 1);
-            switch (random() % 4) {
-                case 0:
-                    text.insert(at, pieces[random() % pieces.size()]);
-                    break;
-                case 1:
-                    text.erase(at, random() % 8);
-                    break;
-                case 2:
-                    if (at < text.size()) text[at] = static_cast<char>(random());
-                    break;
-                default:
-                    if (at < text.size()) text[at] = static_cast<char>('0' + random() % 10);
-                    break;
-            }
-        }
-        run(text);
+        run(testing::mutated(texts[random() % texts.size()], pieces, random));
     }
 }
 

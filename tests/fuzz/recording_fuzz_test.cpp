@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "client/device/recorder.h"
+#include "tests/support/text_mutation.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
@@ -40,30 +41,8 @@ std::vector<std::string> corpus() {
     return {own, video, scene, "", "\n", "time_ns\n1\n"};
 }
 
-std::string mutated(std::string text, std::mt19937& random) {
-    const char* const kHostile[] = {
-        "-", "9223372036854775807", "-9223372036854775808", "1e999", "nan", "inf", ",", "\n", "\r", "True", "False",
-        "0"};
-    const auto edits = 1 + random() % 4;
-    for (unsigned edit = 0; edit < edits; ++edit) {
-        const std::size_t at = text.empty() ? 0 : random() % text.size();
-        switch (random() % 4) {
-            case 0:
-                text.insert(at, kHostile[random() % std::size(kHostile)]);
-                break;
-            case 1:
-                text.erase(at, random() % 12);
-                break;
-            case 2:
-                if (!text.empty()) text[at] = static_cast<char>(random() & 0xFFU);
-                break;
-            default:
-                text += text.substr(at, random() % 200);
-                break;
-        }
-    }
-    return text;
-}
+const std::vector<std::string> kHostile = {
+    "-", "9223372036854775807", "-9223372036854775808", "1e999", "nan", "inf", ",", "\n", "\r", "True", "False", "0"};
 
 TEST(RecordingFuzz, CorpusIsAccepted) {
     for (const std::string& text : corpus()) run(text);
@@ -74,7 +53,7 @@ TEST(RecordingFuzz, MutationsAreSurvived) {
     std::mt19937 random(seed);
     for (const std::string& text : corpus()) {
         for (int i = 0; i < 3000; ++i) {
-            const std::string hostile = mutated(text, random);
+            const std::string hostile = testing::mutated(text, kHostile, random);
             SCOPED_TRACE("seed 1, mutation " + std::to_string(i));
             run(hostile);
         }

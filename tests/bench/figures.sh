@@ -1,0 +1,30 @@
+#!/usr/bin/env bash
+# Prints the figures that tests/bench/README.md records: builds what is needed, then measures one after another.
+# Leave the machine alone meanwhile.
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+cmake --preset release >/dev/null
+cmake --build --preset release -- --quiet
+bin=build/release/tests
+
+step() { printf '\n== %s\n' "$*"; }
+
+step "Tracing with shading and shadows against bare Embree on the same rays (share_of_bare_speed)"
+$bin/trace_bench 2>/dev/null
+step "Trace and reconstruct at each share against full sampling"
+$bin/speedup_bench vive bunny-box 15
+step "Plan of one eye, one core"
+$bin/plan_bench --benchmark_repetitions=5 --benchmark_report_aggregates_only --benchmark_filter='plan/vive' 2>/dev/null
+step "Reconstruction of colour and depth, one eye 1512x1680, C++ path, one core"
+$bin/reconstruct_bench --benchmark_filter='cpp/.*threads:1' 2>/dev/null
+step "Demo: desktop, 18 %, client and server on this machine"
+deploy/demo.sh --seconds 20 --out "$PWD/out/figures" | sed -n '/^frames shown/,/gaze_to_frame/p'
+step "Server memory: Bunny Box, one client, vive (peak resident size)"
+state=$(mktemp -d)
+trap 'kill "$server" 2>/dev/null; rm -rf "$state"' EXIT
+build/release/server/macula-server --listen 127.0.0.1:0 --state "$state" 2>"$state/log" &
+server=$!
+until grep -q 'listening on' "$state/log"; do sleep .2; done
+build/release/client/macula-client --connect "127.0.0.1:$(sed -n 's/.*listening on .*:\([0-9]*\)$/\1/p' "$state/log")" \
+    --state "$state" --headset vive --seconds 10 2>/dev/null | head -n 2
+grep VmHWM "/proc/$server/status"
