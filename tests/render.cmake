@@ -10,7 +10,7 @@ macula_test(kernels_test
 macula_test(tracer_test
     SOURCES unit/tracer_test.cpp differential/tracer_test.cpp
     LINK macula_tracer macula_scenes
-    LABELS fast)
+    LABELS fast threads)
 
 # Mesa's rasteriser threads are not instrumented, so that contexts stay out of the sanitizer runs ("fast").
 macula_test(kernels_gl_test SOURCES differential/kernels_gl_test.cpp LINK macula_kernels macula_gl LABELS gl)

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds, and runs every test: the whole suite as users build it, its fast part under
-# ASan+UBSan and under TSan, and the lint.
+# ASan+UBSan, of that the tests of threaded code under TSan, and the lint.
 set -euo pipefail
 usage() {
     cat <<USAGE
@@ -26,10 +26,9 @@ for part in "${parts[@]}"; do
     echo "== $part (at $((SECONDS - started)) s)"
     case $part in
         release | asan | tsan)
-            target=all
-            [ "$part" = release ] || target=fast_tests
+            declare -A targets=([release]=all [asan]=fast_tests [tsan]=threads_tests)
             cmake --preset "$part" -DMACULA_WARNINGS_AS_ERRORS=ON >/dev/null
-            cmake --build --preset "$part" --target "$target" -- -j "$jobs" --quiet
+            cmake --build --preset "$part" --target "${targets[$part]}" -- -j "$jobs" --quiet
             ctest --preset "$part" -j "$jobs"
             ;;
         lint) tests/lint.sh ;;

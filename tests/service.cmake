@@ -1,15 +1,15 @@
 macula_test(service_parts_test
     SOURCES unit/prediction_test.cpp unit/pacing_test.cpp unit/session_statistics_test.cpp unit/handshake_test.cpp
     LINK macula_service
-    LABELS fast)
+    LABELS fast threads)
 macula_test(session_test
     SOURCES unit/session_test.cpp
     LINK macula_service spdlog::spdlog
-    LABELS fast)
+    LABELS fast threads)
 macula_test(server_test
     SOURCES integration/server_test.cpp support/peer.cpp support/small_service.cpp
     LINK macula_service macula_tracer macula_reconstruct spdlog::spdlog OpenSSL::SSL TBB::tbb
-    LABELS fast
+    LABELS fast threads
     TIMEOUT 600)
 macula_test(server_program_test
     SOURCES integration/server_program_test.cpp support/peer.cpp support/program.cpp

@@ -5,5 +5,5 @@ macula_test(identity_test
 macula_test(transport_test
     SOURCES integration/transport_test.cpp
     LINK macula_transport OpenSSL::SSL
-    LABELS fast)
+    LABELS fast threads)
 macula_bench(transport_bench SOURCES bench/transport_bench.cpp LINK macula_transport)

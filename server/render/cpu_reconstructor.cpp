@@ -2,7 +2,7 @@
 #include <array>
 
 #include "server/render/palette_lookup.h"
-#include "server/render/parallel_rows.h"
+#include "server/render/parallel_ranges.h"
 #include "server/render/reconstruct_source.h"
 #include "server/render/reconstructor.h"
 
@@ -124,7 +124,7 @@ public:
         const kernels::ReconstructSource source{plan, samples, *tables_};
         const kernels::ReconstructView view = reconstruct_view(plan);
         const TileReconstructor tiles(source, view);
-        parallel_rows(1, plan.tiles_y - 1, [&](int first_row, int last_row) {
+        parallel_ranges(1, plan.tiles_y - 1, 1, [&](int first_row, int last_row) {
             Patch pixels;
             for (int tile_y = first_row; tile_y != last_row; ++tile_y)
                 for (int tile_x = 1; tile_x < plan.tiles_x - 1; ++tile_x) {

@@ -5,14 +5,12 @@
 #include <string>
 #include <utility>
 
-#include <oneapi/tbb/blocked_range.h>
-#include <oneapi/tbb/parallel_for.h>
-
 #include <glm/gtc/quaternion.hpp>
 
 #include "server/kernels/camera.h"
 #include "server/render/embree_calls.h"
 #include "server/render/packet_shading.h"
+#include "server/render/parallel_ranges.h"
 #include "server/render/tracer.h"
 
 namespace macula {
@@ -21,7 +19,7 @@ namespace {
 static_assert(RTC_INVALID_GEOMETRY_ID == 0xFFFFFFFFU);
 
 /// Packets that one task of the thread pool traces in a row.
-constexpr std::size_t kPacketsPerTask = 64;
+constexpr int kPacketsPerTask = 64;
 
 struct DeviceDelete {
     using pointer = RTCDevice;
@@ -252,23 +250,22 @@ void prepare(const TraceTask& task) {
     }
 }
 
-std::size_t packet_count(const TraceTask& task) {
-    return (task.plan->trace_order.size() + kLaneCount - 1) / kLaneCount;
+int packet_count(const TraceTask& task) {
+    return static_cast<int>((task.plan->trace_order.size() + kLaneCount - 1) / kLaneCount);
 }
 
 void EmbreeTracer::trace(std::span<const TraceTask> tasks) const noexcept {
-    std::size_t total = 0;
+    int total = 0;
     for (const TraceTask& task : tasks) {
         prepare(task);
         total += packet_count(task);
     }
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, total, kPacketsPerTask), [&](const auto& range) {
-        std::size_t begin = range.begin();
-        std::size_t end = range.end();
+    parallel_ranges(0, total, kPacketsPerTask, [&](int begin, int end) {
         for (const TraceTask& task : tasks) {
-            const std::size_t count = packet_count(task);
+            const int count = packet_count(task);
             const Camera camera(*task.view);
-            for (; begin < std::min(end, count); ++begin) trace_packet(task, camera, begin * kLaneCount);
+            for (; begin < std::min(end, count); ++begin)
+                trace_packet(task, camera, static_cast<std::size_t>(begin) * kLaneCount);
             if (end <= count) return;
             begin -= count;
             end -= count;

@@ -1,14 +1,10 @@
 # Samples to pictures: the kernel as C++ and on a GL context, and which of them a session uses.
 macula_library(macula_reconstruct
-    SOURCES reference_reconstructor.cpp cpu_reconstructor.cpp gl_reconstructor.cpp parallel_rows.cpp
+    SOURCES reference_reconstructor.cpp cpu_reconstructor.cpp gl_reconstructor.cpp
             reconstructor_choice.cpp reconstructor_factory.cpp
     LINK macula_masks
-    PRIVATE_LINK macula_kernels macula_gl TBB::tbb)
+    PRIVATE_LINK macula_kernels macula_gl macula_parallel)
 # The reference and the fast path agree to the bit: neither may fuse a product and a sum that the other does not.
 set_source_files_properties(reference_reconstructor.cpp cpu_reconstructor.cpp PROPERTIES COMPILE_OPTIONS -ffp-contract=off)
-if(MACULA_SANITIZE MATCHES thread)
-    set_source_files_properties(parallel_rows.cpp PROPERTIES
-        COMPILE_OPTIONS -fno-sanitize=thread COMPILE_DEFINITIONS MACULA_THREAD_SANITIZER)
-endif()
 macula_kernel_text(macula_reconstruct
     server/kernels/reconstruct_buffers.glsl server/kernels/reconstruct.h server/kernels/reconstruct_main.glsl)

@@ -1,4 +1,4 @@
-#include "server/render/parallel_rows.h"
+#include "server/render/parallel_ranges.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -27,13 +27,13 @@ void take_over(char& /*place*/) {}
 
 }  // namespace
 
-void parallel_rows(int first, int last, const std::function<void(int begin, int end)>& body) {
+void parallel_ranges(int first, int last, int grain, const std::function<void(int begin, int end)>& body) {
     char given = 0;
     char returned = 0;
     hand_over(given);
-    tbb::parallel_for(tbb::blocked_range<int>(first, last), [&](const tbb::blocked_range<int>& rows) {
+    tbb::parallel_for(tbb::blocked_range<int>(first, last, grain), [&](const tbb::blocked_range<int>& range) {
         take_over(given);
-        body(rows.begin(), rows.end());
+        body(range.begin(), range.end());
         hand_over(returned);
     });
     take_over(returned);
