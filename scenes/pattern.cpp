@@ -10,6 +10,8 @@
 
 #include <glm/common.hpp>
 
+#include "scenes/noise.h"
+
 namespace macula {
 namespace {
 
@@ -38,41 +40,6 @@ TextureImage paint(std::string name, int size_px, int grid, Color color) {
             image.rgba.push_back(255);
         }
     return image;
-}
-
-/// Integer hash (the finaliser of MurmurHash3) as a number in [0, 1).
-float hash01(int x, int y, int seed) {
-    auto h = static_cast<std::uint32_t>(x) * 0x9E3779B1U ^ static_cast<std::uint32_t>(y) * 0x85EBCA77U ^
-             static_cast<std::uint32_t>(seed) * 0xC2B2AE3DU;
-    h = (h ^ (h >> 16U)) * 0x85EBCA6BU;
-    h = (h ^ (h >> 13U)) * 0xC2B2AE35U;
-    h ^= h >> 16U;
-    return static_cast<float>(h >> 8U) / 16777216.0F;
-}
-
-/// Smoothly interpolated lattice noise in [0, 1); repeats every `period` cells along each axis.
-float value_noise(float x, float y, int period, int seed) {
-    const float fx = std::floor(x);
-    const float fy = std::floor(y);
-    const auto wrap = [period](float f) { return ((static_cast<int>(f) % period) + period) % period; };
-    const int x0 = wrap(fx);
-    const int y0 = wrap(fy);
-    const int x1 = (x0 + 1) % period;
-    const int y1 = (y0 + 1) % period;
-    const auto smooth = [](float t) { return t * t * (3.0F - 2.0F * t); };
-    const float tx = smooth(x - fx);
-    const float ty = smooth(y - fy);
-    return glm::mix(glm::mix(hash01(x0, y0, seed), hash01(x1, y0, seed), tx),
-                    glm::mix(hash01(x0, y1, seed), hash01(x1, y1, seed), tx), ty);
-}
-
-/// Five octaves of value noise, about 0.5 in the mean.
-float fractal_noise(float u, float v, int cells, int seed) {
-    float sum = 0.0F;
-    float weight = 0.5F;
-    for (int octave = 0; octave < 5; ++octave, cells *= 2, weight *= 0.5F)
-        sum += weight * value_noise(u * static_cast<float>(cells), v * static_cast<float>(cells), cells, seed + octave);
-    return sum;
 }
 
 /// The Sloan letters on their 5 x 5 grid, rows from the top.
