@@ -40,6 +40,14 @@ struct SamplePlan {
     std::uint32_t traced_in_window = 0;      ///< entries of trace_order inside the window
 
     [[nodiscard]] std::uint32_t address_count() const { return offset.empty() ? 0U : offset.back(); }
+    /// Mean distance of the samples around an address, in pixels: 1 at full density, 4 at 16 samples a tile. A plan
+    /// without tiles has one sample for each pixel.
+    [[nodiscard]] float spacing_px(std::uint32_t address) const {
+        if (level.empty()) return 1.0F;
+        const SamplePosition p = position[address];
+        const int tile = (p.y_px - origin_px.y) / kTileEdge_px * tiles_x + (p.x_px - origin_px.x) / kTileEdge_px;
+        return kSpacing_px[level[static_cast<std::size_t>(tile)]];
+    }
     /// Share of the window's pixels that get a ray (hidden pixels count as pixels).
     [[nodiscard]] double traced_share() const {
         return static_cast<double>(traced_in_window) / (static_cast<double>(width_px) * height_px);

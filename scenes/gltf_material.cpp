@@ -105,11 +105,11 @@ Expected<void> GltfMaterialReader::read(Material& to, const tinygltf::Material& 
     to.double_sided = from.doubleSided;
     to.unlit = from.extensions.count("KHR_materials_unlit") > 0;
     if (from.alphaMode == "BLEND") {
-        to.alpha_mask = true;
+        to.alpha_mode = AlphaMode::mask;
         to.alpha_cutoff = 0.5F;
         context_.warn(element, "alphaMode BLEND is shown as MASK with cutoff 0.5");
     } else if (from.alphaMode == "MASK") {
-        to.alpha_mask = true;
+        to.alpha_mode = AlphaMode::mask;
     } else if (from.alphaMode != "OPAQUE") {
         return context_.error(element, "alphaMode \"" + from.alphaMode + "\" is not glTF");
     }

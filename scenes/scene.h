@@ -10,6 +10,7 @@
 #include <glm/vec4.hpp>
 
 #include "protocol/base/geometry.h"
+#include "scenes/animation.h"
 
 namespace macula {
 
@@ -39,7 +40,14 @@ struct TextureUse {
     [[nodiscard]] bool present() const { return image >= 0; }
 };
 
-/// glTF 2.0 metallic-roughness material. Factors are linear.
+enum class AlphaMode : std::uint8_t {
+    opaque,  ///< alpha is ignored
+    mask,    ///< alpha below the cutoff is a hole
+    blend,   ///< alpha is the share of the light from behind that is covered
+};
+
+/// glTF 2.0 metallic-roughness material with the extensions that Macula reads. Factors are linear; each texture's
+/// value is multiplied with the factor that is named like it.
 struct Material {
     std::string name;
     glm::vec4 base_color = glm::vec4(1.0F);
@@ -48,13 +56,39 @@ struct Material {
     glm::vec3 emissive = glm::vec3(0.0F);
     float normal_scale = 1.0F;
     float alpha_cutoff = 0.5F;
-    bool alpha_mask = false;    ///< alpha below the cutoff is a hole
+    AlphaMode alpha_mode = AlphaMode::opaque;
     bool double_sided = false;  ///< otherwise back faces are invisible; they still cast shadows
     bool unlit = false;         ///< KHR_materials_unlit: radiance is the base colour
     TextureUse base_color_texture;
     TextureUse metallic_roughness_texture;  ///< G roughness, B metallic
     TextureUse normal_texture;
     TextureUse emissive_texture;
+
+    float ior = 1.5F;                         ///< KHR_materials_ior; at least 1
+    float specular = 1.0F;                    ///< KHR_materials_specular: strength of the dielectric reflection
+    glm::vec3 specular_color = glm::vec3(1);  ///< its colour at normal incidence
+    TextureUse specular_texture;              ///< A
+    TextureUse specular_color_texture;        ///< sRGB
+
+    float clearcoat = 0.0F;  ///< KHR_materials_clearcoat: strength of a layer of ior 1.5 on top
+    float clearcoat_roughness = 0.0F;
+    float clearcoat_normal_scale = 1.0F;
+    TextureUse clearcoat_texture;            ///< R
+    TextureUse clearcoat_roughness_texture;  ///< G
+    TextureUse clearcoat_normal_texture;     ///< absent: the coat has the geometry's normals
+
+    glm::vec3 sheen_color = glm::vec3(0.0F);  ///< KHR_materials_sheen
+    float sheen_roughness = 0.0F;
+    TextureUse sheen_color_texture;      ///< sRGB
+    TextureUse sheen_roughness_texture;  ///< A
+
+    float transmission = 0.0F;        ///< KHR_materials_transmission: share of the base that lets light through
+    TextureUse transmission_texture;  ///< R
+    /// KHR_materials_volume: 0 is a thin wall, that does not bend light; otherwise the mesh encloses a volume.
+    float thickness_m = 0.0F;
+    TextureUse thickness_texture;         ///< G
+    float attenuation_distance_m = 0.0F;  ///< distance in which white light turns into attenuation_color; 0: clear
+    glm::vec3 attenuation_color = glm::vec3(1.0F);
 };
 
 /// Indexed triangles of one material, in mesh space; the corners turn counter-clockwise on the front, and a mirroring
@@ -75,21 +109,45 @@ struct Mesh {
 struct Instance {
     std::string name;
     int mesh = 0;
-    glm::mat4 world_from_mesh = glm::mat4(1.0F);  ///< affine, not singular
+    glm::mat4 world_from_mesh = glm::mat4(1.0F);  ///< affine, not singular; of a moving instance, at time 0
+    int node = -1;                                ///< of the scene's animation that moves it; -1: it never moves
 };
 
-enum class LightKind : std::uint8_t { directional, point, spot };
+enum class LightKind : std::uint8_t { directional, point, spot, rectangle };
 
-/// KHR_lights_punctual. Shines along `direction` (world space, unit).
+/// KHR_lights_punctual, with an extent for soft shadows, and rectangles. Shines along `direction` (world space, unit).
 struct Light {
     LightKind kind = LightKind::directional;
     glm::vec3 position_m = glm::vec3(0.0F);
     glm::vec3 direction = glm::vec3(0.0F, 0.0F, -1.0F);
-    glm::vec3 intensity = glm::vec3(1.0F);  ///< directional: irradiance; point and spot: radiant intensity
-    float range_m = 0.0F;                   ///< 0: unlimited
+    /// Directional: irradiance; point and spot: radiant intensity; rectangle: radiance.
+    glm::vec3 intensity = glm::vec3(1.0F);
+    float range_m = 0.0F;  ///< 0: unlimited
     float spot_cos_inner = 1.0F;
     float spot_cos_outer = 0.0F;
     bool casts_shadow = true;
+    float radius_m = 0.0F;                 ///< of a point or spot light's ball; 0: shadows are hard
+    float angular_radius_rad = 0.0F;       ///< of a directional light's disc; 0: shadows are hard
+    glm::vec3 half_u_m = glm::vec3(0.0F);  ///< rectangle: from the centre `position_m` to the middle of one edge
+    glm::vec3 half_v_m = glm::vec3(0.0F);  ///< and of the next; direction is along cross(half_u_m, half_v_m)
+    int instance = -1;  ///< the emissive quad that this rectangle stands for, which does not shadow its own light
+    int node = -1;      ///< of the scene's animation that moves it; -1: it never moves
+};
+
+/// Light from far away all around, a lat-long map: u = 0 and 1 at +Z, u = 1/4 at -X, u = 1/2 at -Z (straight ahead in
+/// the middle), v = 0 at +Y.
+struct Environment {
+    int image = -1;             ///< index into the scene's images; negative: none
+    float intensity = 1.0F;     ///< multiplies its radiance
+    float rotation_rad = 0.0F;  ///< about +Y, counter-clockwise seen from above
+
+    [[nodiscard]] bool present() const { return image >= 0; }
+};
+
+/// A camera of the file: a pose to start from.
+struct SceneCamera {
+    std::string name;
+    Pose world_from_head;
 };
 
 /// Everything that a tracer needs to know, in linear Rec.709 and metres. A value: built once, then constant and
@@ -103,9 +161,13 @@ struct Scene {
     std::vector<Light> lights;
     glm::vec3 ambient_radiance = glm::vec3(0.0F);     ///< uniform light from everywhere, unshadowed
     glm::vec3 background_radiance = glm::vec3(0.0F);  ///< what a ray that hits nothing sees
-    float exposure = 1.0F;                            ///< radiance times exposure 1 is display white
-    Pose world_from_start;                            ///< head pose at which a session begins
-    float near_m = 0.1F;                              ///< nearest depth the depth stream resolves
+    /// Where present, what a ray that hits nothing sees, and light from everywhere, beside ambient_radiance.
+    Environment environment;
+    Animation animation;          ///< moves the instances and lights that name a node of it
+    std::vector<SceneCamera> cameras;  ///< in the file's order
+    float exposure = 1.0F;        ///< radiance times exposure 1 is display white
+    Pose world_from_start;        ///< head pose at which a session begins
+    float near_m = 0.1F;          ///< nearest depth the depth stream resolves
 
     [[nodiscard]] std::size_t triangle_count() const {
         std::size_t count = 0;

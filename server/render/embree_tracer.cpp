@@ -60,7 +60,7 @@ void cull_and_cut(const RTCFilterFunctionNArguments* args) {
 
 /// For rays that look. To shadow rays both sides of any surface are opaque, and only holes matter.
 RTCFilterFunctionN filter_of(const Material& material) {
-    if (material.alpha_mask) return material.double_sided ? cut_holes : cull_and_cut;
+    if (material.alpha_mode == AlphaMode::mask) return material.double_sided ? cut_holes : cull_and_cut;
     return material.double_sided ? nullptr : cull_back_faces;
 }
 
@@ -90,7 +90,7 @@ Expected<void> add_geometry(RTCDevice device, RTCScene scene, const Instance& in
     rtcSetGeometryUserData(geometry, const_cast<ShadingInstance*>(&shading));
     const Material& material = *shading.material;
     if (const RTCFilterFunctionN filter = filter_of(material)) rtcSetGeometryIntersectFilterFunction(geometry, filter);
-    if (material.alpha_mask) rtcSetGeometryOccludedFilterFunction(geometry, cut_holes);
+    if (material.alpha_mode == AlphaMode::mask) rtcSetGeometryOccludedFilterFunction(geometry, cut_holes);
     rtcCommitGeometry(geometry);
     rtcAttachGeometryByID(scene, geometry, index);
     rtcReleaseGeometry(geometry);
@@ -218,11 +218,12 @@ public:
         return {};
     }
 
-    void trace(std::span<const TraceTask> tasks) const noexcept override;
+    TraceCounts trace(std::span<const TraceTask> tasks, double time_s) const noexcept override;
 
     [[nodiscard]] std::string name() const override {
         return std::string("Embree ") + RTC_VERSION_STRING + ", packets of " + std::to_string(kLaneCount);
     }
+    [[nodiscard]] std::size_t memory_bytes() const override { return shading_.memory_bytes(); }
 
 private:
     /// Traces and shades the packet that begins at entry `first` of the plan's order.
@@ -254,7 +255,7 @@ int packet_count(const TraceTask& task) {
     return static_cast<int>((task.plan->trace_order.size() + kLaneCount - 1) / kLaneCount);
 }
 
-void EmbreeTracer::trace(std::span<const TraceTask> tasks) const noexcept {
+TraceCounts EmbreeTracer::trace(std::span<const TraceTask> tasks, double /*time_s*/) const noexcept {
     int total = 0;
     for (const TraceTask& task : tasks) {
         prepare(task);
@@ -271,6 +272,7 @@ void EmbreeTracer::trace(std::span<const TraceTask> tasks) const noexcept {
             end -= count;
         }
     });
+    return {};
 }
 
 void EmbreeTracer::trace_packet(const TraceTask& task, const Camera& camera, std::size_t first) const {
@@ -308,7 +310,8 @@ LaneMask EmbreeTracer::unshadowed(const SurfacePacket& surfaces, const LightPack
 
 }  // namespace
 
-Expected<std::unique_ptr<Tracer>> make_embree_tracer(std::shared_ptr<const Scene> scene) {
+Expected<std::unique_ptr<Tracer>> make_embree_tracer(std::shared_ptr<const Scene> scene,
+                                                     const TracerOptions& /*options*/, RayTap* /*tap*/) {
     auto tracer = std::make_unique<EmbreeTracer>(std::move(scene));
     auto built = tracer->build();
     if (!built) return tl::unexpected(built.error());

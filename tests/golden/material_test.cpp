@@ -247,7 +247,7 @@ TEST(AlphaMask, CutsHolesForEyesAndForLight) {
     scene.lights.push_back(sun);
     // A mask whose left half is a hole, 1 m before a wall.
     Material mask = test::unlit({1, 0, 0, 1});
-    mask.alpha_mask = true;
+    mask.alpha_mode = AlphaMode::mask;
     mask.double_sided = true;
     mask.base_color_texture.image = test::add_image(scene, 2, 1, {255, 255, 255, 0, 255, 255, 255, 255});
     mask.base_color_texture.filter = TextureFilter::nearest;
@@ -269,7 +269,7 @@ TEST(AlphaMask, CutoffAndFactorsDecide) {
     const auto object_at = [](float factor, float cutoff) {
         Scene scene;
         Material material = test::unlit({1, 1, 1, factor});
-        material.alpha_mask = true;
+        material.alpha_mode = AlphaMode::mask;
         material.alpha_cutoff = cutoff;
         test::add(scene, screen(), material);
         return test::trace(scene, test::square_view(4)).object(1, 1);
@@ -288,7 +288,7 @@ TEST(Sides, SingleSidedBacksAreInvisible) {
                 Scene scene;
                 Material material = test::unlit();
                 material.double_sided = double_sided;
-                material.alpha_mask = masked;
+                material.alpha_mode = masked ? AlphaMode::mask : AlphaMode::opaque;
                 const glm::mat4 ahead = glm::translate(glm::mat4(1.0F), vec3(0.0F, 0.0F, -2.0F));
                 const auto object = test::add(scene, test::wall(vec3(0.0F), 4.0F), material, back ? turned : ahead);
                 EXPECT_EQ(test::trace(scene, test::square_view(4)).object(1, 2), back && !double_sided ? 0U : object);

@@ -42,7 +42,7 @@ TEST(GltfMaterial, FactorsAndFlags) {
     EXPECT_EQ(m.metallic, 0.5F);
     EXPECT_EQ(m.roughness, 0.6F);
     EXPECT_EQ(m.emissive, glm::vec3(0.7F, 0.8F, 0.9F));
-    EXPECT_TRUE(m.alpha_mask);
+    EXPECT_TRUE(m.alpha_mode == AlphaMode::mask);
     EXPECT_EQ(m.alpha_cutoff, 0.25F);
     EXPECT_TRUE(m.double_sided);
     EXPECT_TRUE(m.unlit);
@@ -53,7 +53,7 @@ TEST(GltfMaterial, BlendIsShownAsMask) {
     b.material() = {{"name", "glass"}, {"alphaMode", "BLEND"}, {"alphaCutoff", 0.9}};
     const Expected<LoadedScene> loaded = load_valid(b);
     ASSERT_TRUE(loaded) << loaded.error().message;
-    EXPECT_TRUE(loaded->scene->materials[0].alpha_mask);
+    EXPECT_TRUE(loaded->scene->materials[0].alpha_mode == AlphaMode::mask);
     EXPECT_EQ(loaded->scene->materials[0].alpha_cutoff, 0.5F);
     ASSERT_EQ(loaded->warnings.size(), 1U);
     EXPECT_NE(loaded->warnings[0].find("material 0 (\"glass\"): alphaMode BLEND"), std::string::npos);

@@ -22,7 +22,7 @@ Scene still_life() {
     checked.base_color_texture.image =
         test::add_image(scene, 2, 2, {250, 240, 230, 255, 20, 30, 40, 255, 20, 30, 40, 255, 250, 240, 230, 255}, true);
     Material masked = checked;
-    masked.alpha_mask = true;
+    masked.alpha_mode = AlphaMode::mask;
     masked.base_color_texture.image = test::add_image(scene, 2, 1, {90, 200, 90, 255, 90, 200, 90, 0}, true);
     test::add(scene, test::wall({0.0F, 0.0F, -4.0F}, 3.0F), checked);
     test::add(scene, test::wall({-1.0F, 0.5F, -3.0F}, 0.6F), masked);
