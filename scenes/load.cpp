@@ -3,13 +3,15 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <utility>
 
 #include "scenes/bunny_box.h"
 #include "scenes/gltf.h"
 
 namespace macula {
+namespace {
 
-Expected<LoadedScene> load_scene(const std::string& name_or_path) {
+Expected<LoadedScene> load_as_it_is(const std::string& name_or_path, const LoadProgress& /*progress*/) {
     if (name_or_path == "bunny-box") return make_bunny_box();
     std::string extension = std::filesystem::path(name_or_path).extension().string();
     std::transform(extension.begin(), extension.end(), extension.begin(),
@@ -17,6 +19,30 @@ Expected<LoadedScene> load_scene(const std::string& name_or_path) {
     if (extension == ".gltf" || extension == ".glb") return load_gltf(name_or_path);
     return fail(ErrorCode::option,
                 "unknown scene \"" + name_or_path + "\"; known are bunny-box and paths that end in .gltf or .glb");
+}
+
+Expected<void> start_from(Scene& scene, const std::string& camera) {
+    std::string known;
+    for (const SceneCamera& candidate : scene.cameras) {
+        if (candidate.name == camera) {
+            scene.world_from_start = candidate.world_from_head;
+            return {};
+        }
+        known += (known.empty() ? "\"" : ", \"") + candidate.name + "\"";
+    }
+    return fail(ErrorCode::option, "scene \"" + scene.name + "\" has no camera \"" + camera + "\"; it has " +
+                                       (known.empty() ? "none" : known));
+}
+
+}  // namespace
+
+Expected<LoadedScene> load_scene(const std::string& name_or_path, const LoadOptions& options) {
+    Expected<LoadedScene> loaded = load_as_it_is(name_or_path, options.progress);
+    if (!loaded || options.camera.empty()) return loaded;
+    Scene scene = *loaded->scene;
+    if (auto started = start_from(scene, options.camera); !started) return tl::unexpected(started.error());
+    loaded->scene = std::make_shared<const Scene>(std::move(scene));
+    return loaded;
 }
 
 }  // namespace macula
