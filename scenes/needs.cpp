@@ -67,8 +67,10 @@ std::uint32_t gloss_needs(float smoothest, float roughest) {
     return (smoothest <= kMirrorLimit ? kNeedMirrors : 0U) | (roughest > kMirrorLimit ? kNeedGloss : 0U);
 }
 
-std::string quoted(const std::string& kind, const std::string& name, std::size_t index) {
-    return kind + (name.empty() ? " " + std::to_string(index) : " '" + name + "'");
+std::string quoted(const char* kind, const std::string& name, std::size_t index) {
+    std::string text = kind;
+    if (name.empty()) return text.append(" ").append(std::to_string(index));
+    return text.append(" '").append(name).append("'");
 }
 
 /// Who asks for each need: the first by name, and how many there are.
@@ -89,7 +91,9 @@ public:
             }
             result.needs |= 1U << bit;
             const std::size_t others = count_[bit] - 1;
-            result.reason.push_back(first_[bit] + (others == 0 ? "" : " and " + std::to_string(others) + " more"));
+            std::string who = first_[bit];
+            if (others > 0) who.append(" and ").append(std::to_string(others)).append(" more");
+            result.reason.push_back(std::move(who));
         }
         return result;
     }
