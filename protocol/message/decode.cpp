@@ -3,7 +3,7 @@
 
 #include <macula_generated.h>
 
-#include "protocol/message/level_map.h"
+#include "protocol/message/byte_map.h"
 #include "protocol/message/limits.h"
 #include "protocol/message/message.h"
 #include "protocol/message/validate.h"
@@ -102,9 +102,25 @@ Expected<EyeSamplingMessage> read_sampling(const wire::EyeFrame& eye) {
                                              std::to_string(kMaxTilesAcross) + " each way");
     }
     const std::size_t count = static_cast<std::size_t>(eye.tiles_x()) * static_cast<std::size_t>(eye.tiles_y());
-    Expected<std::vector<std::uint8_t>> level = unpack_levels({eye.level()->data(), eye.level()->size()}, count);
+    Expected<std::vector<std::uint8_t>> level = unpack_map({eye.level()->data(), eye.level()->size()}, count);
     if (!level) return tl::unexpected(level.error());
     return EyeSamplingMessage{{eye.phase_x_px(), eye.phase_y_px()}, eye.tiles_x(), eye.tiles_y(), std::move(*level)};
+}
+
+glm::mat4x3 read(const wire::Affine& m) {
+    return {read(m.x()), read(m.y()), read(m.z()), read(m.origin())};
+}
+
+std::vector<MovingObject> read(const flatbuffers::Vector<const wire::MovingObject*>* objects) {
+    std::vector<MovingObject> result;
+    if (objects == nullptr) return result;
+    const auto count = std::min<std::size_t>(objects->size(), kMaxMovingObjects + 1);
+    result.reserve(count);
+    for (flatbuffers::uoffset_t i = 0; i < count; ++i) {
+        const wire::MovingObject& object = *objects->Get(i);
+        result.push_back({object.id(), read(object.world_from_object()), read(object.velocity_per_s())});
+    }
+    return result;
 }
 
 Expected<Frame> read(const wire::Frame& frame) {
@@ -133,6 +149,8 @@ Expected<Frame> read(const wire::Frame& frame) {
     result.keyframe = frame.keyframe();
     result.color = read(frame.color());
     result.depth = read(frame.depth());
+    result.moving = read(frame.moving());
+    if (frame.moving_map() != nullptr) result.moving_map = read(frame.moving_map());
     return result;
 }
 

@@ -1,6 +1,6 @@
 #include <macula_generated.h>
 
-#include "protocol/message/level_map.h"
+#include "protocol/message/byte_map.h"
 #include "protocol/message/message.h"
 
 namespace macula {
@@ -73,9 +73,25 @@ Offset<wire::EyeFrame> write_eye(FlatBufferBuilder& builder, const Frame& frame,
     const wire::Pose world_from_eye = to_wire(frame.world_from_eye[eye]);
     const wire::Vec3 gaze = to_wire(frame.gaze[eye]);
     const EyeSamplingMessage& sampling = frame.sampling[eye];
-    const auto level = builder.CreateVector(pack_levels(sampling.level));
+    const auto level = builder.CreateVector(pack_map(sampling.level));
     return wire::CreateEyeFrame(builder, &world_from_eye, &gaze, sampling.phase_px.x, sampling.phase_px.y,
                                 sampling.tiles_x, sampling.tiles_y, level);
+}
+
+wire::Affine to_wire(const glm::mat4x3& m) {
+    return {to_wire(m[0]), to_wire(m[1]), to_wire(m[2]), to_wire(m[3])};
+}
+
+/// Null where nothing moves: the frame of a still scene carries no byte of it.
+Offset<flatbuffers::Vector<const wire::MovingObject*>> write(FlatBufferBuilder& builder,
+                                                             const std::vector<MovingObject>& objects) {
+    if (objects.empty()) return {};
+    std::vector<wire::MovingObject> moving;
+    moving.reserve(objects.size());
+    for (const MovingObject& object : objects) {
+        moving.emplace_back(object.id, to_wire(object.world_from_object), to_wire(object.velocity_per_s));
+    }
+    return builder.CreateVectorOfStructs(moving);
 }
 
 Offset<wire::Frame> write(FlatBufferBuilder& builder, const Frame& frame) {
@@ -86,9 +102,12 @@ Offset<wire::Frame> write(FlatBufferBuilder& builder, const Frame& frame) {
     const StageTimes& t = frame.times;
     const wire::StageTimes times(t.track_received_ns, t.begin_ns, t.plan_ns, t.trace_ns, t.reconstruct_ns, t.encode_ns,
                                  t.send_ns);
+    const auto moving = write(builder, frame.moving);
+    const auto moving_map =
+        frame.moving_map.empty() ? Offset<flatbuffers::Vector<std::uint8_t>>() : builder.CreateVector(frame.moving_map);
     return wire::CreateFrame(builder, frame.id, frame.track_id, frame.pose_time_ns, frame.gaze_time_ns,
                              frame.display_time_ns, left, right, frame.traced, frame.near_m, &times, frame.keyframe,
-                             color, depth);
+                             color, depth, moving, moving_map);
 }
 
 Offset<wire::FrameReport> write(FlatBufferBuilder& builder, const FrameReport& report) {
@@ -117,7 +136,9 @@ Offset<wire::Envelope> envelope(FlatBufferBuilder& builder, Offset<Table> body) 
 std::size_t expected_size(const Message& message) {
     constexpr std::size_t kWithoutPictures = std::size_t{8} << 10;
     const auto* frame = std::get_if<Frame>(&message);
-    return frame == nullptr ? kWithoutPictures / 8 : frame->color.size() + frame->depth.size() + kWithoutPictures;
+    if (frame == nullptr) return kWithoutPictures / 8;
+    return frame->color.size() + frame->depth.size() + frame->moving.size() * sizeof(wire::MovingObject) +
+           frame->moving_map.size() + kWithoutPictures;
 }
 
 }  // namespace

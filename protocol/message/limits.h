@@ -27,7 +27,10 @@ inline constexpr std::uint32_t kMaxTraced = 2U * kMaxEyeEdge_px * kMaxEyeEdge_px
 inline constexpr float kMinNear_m = 1e-4F;
 inline constexpr float kMaxNear_m = 1e4F;
 
-/// Positions in metres and velocities, per component.
+/// Frame.moving; the map's bytes are 0 for what is still and 1..kMaxMovingObjects for these.
+inline constexpr std::size_t kMaxMovingObjects = 254;
+
+/// Positions in metres and velocities, per component; entries of moving objects' matrices.
 inline constexpr float kMaxMagnitude = 1e6F;
 
 /// Times lie within +-2^60 ns (36 years), so that sums and differences of a few cannot overflow.

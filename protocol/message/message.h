@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include <glm/mat4x3.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
@@ -104,6 +105,15 @@ struct StageTimes {
     std::int64_t send_ns = 0;
 };
 
+/// Something in the scene that moves by itself, as it stands at the display time of a frame.
+struct MovingObject {
+    std::uint32_t id = 0;  ///< the same from frame to frame; unique in a frame
+    /// Affine; columns x, y, z and origin. A point of the object that lies at p in world space now lay at
+    /// world_from_object_before * inverse(world_from_object) * p in an earlier frame that has the same id.
+    glm::mat4x3 world_from_object = glm::mat4x3(1.0F);
+    glm::mat4x3 velocity_per_s = glm::mat4x3(0.0F);  ///< derivative of world_from_object by time; 0 across a jump
+};
+
 /// Server -> client: one stereo frame with everything that made it; nothing is re-matched afterwards.
 struct Frame {
     std::uint64_t id = 0;
@@ -120,6 +130,11 @@ struct Frame {
     bool keyframe = false;
     std::vector<std::uint8_t> color;  ///< H.264 access unit, both eyes side by side, left eye left
     std::vector<std::uint8_t> depth;  ///< depth stream's access unit (protocol/codec/depth_codec.h)
+    /// What moves by itself and is seen in this frame; empty in a still scene. All other surfaces are still.
+    std::vector<MovingObject> moving;
+    /// Which of them is seen where: one zstd frame (byte_map.h) that holds a byte for each 4x4 block of both eyes side
+    /// by side, row-major, as the depth stream has them: 0 still, otherwise index into `moving` + 1. Empty if that is.
+    std::vector<std::uint8_t> moving_map;
 };
 
 /// Client -> server, one for each frame shown or given up.

@@ -157,6 +157,24 @@ void check_sampling(Check& check, const EyeSamplingMessage& sampling) {
     check.integer(densest, 0, kMaxLevel, "sampling.level");
 }
 
+void check_moving(Check& check, const Frame& frame) {
+    const std::size_t count = frame.moving.size();
+    check.that(count <= kMaxMovingObjects, "moving", "has more than " + std::to_string(kMaxMovingObjects) + " objects");
+    check.that(frame.moving_map.empty() == frame.moving.empty(), "moving_map",
+               "is there without moving, or not with it");
+    std::vector<std::uint32_t> ids;
+    ids.reserve(count);
+    for (const MovingObject& object : frame.moving) {
+        ids.push_back(object.id);
+        for (int column = 0; column < 4; ++column) {
+            check.vector(object.world_from_object[column], "moving.world_from_object");
+            check.vector(object.velocity_per_s[column], "moving.velocity_per_s");
+        }
+    }
+    std::ranges::sort(ids);
+    check.that(std::ranges::adjacent_find(ids) == ids.end(), "moving.id", "is not unique");
+}
+
 void check_message(Check& check, Frame& frame) {
     check.in("Frame.");
     check.time(frame.pose_time_ns, "pose_time_ns");
@@ -169,6 +187,7 @@ void check_message(Check& check, Frame& frame) {
                                        times.reconstruct_ns, times.encode_ns, times.send_ns}) {
         check.time(time_ns, "times");
     }
+    check_moving(check, frame);
     for (std::size_t eye = 0; eye < frame.sampling.size(); ++eye) {
         check.in(eye_prefix("Frame", eye));
         check.pose(frame.world_from_eye[eye], "world_from_eye");

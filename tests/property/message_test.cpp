@@ -1,5 +1,6 @@
 // Whatever a sender may say within the limits arrives as it was said.
 
+#include <algorithm>
 #include <cstdlib>
 #include <tuple>
 
@@ -85,12 +86,18 @@ bool same(const Track& a, const Track& b) {
            same(start_from_head, b.start_from_head) && same(gaze, b.gaze);
 }
 
+bool same(const MovingObject& a, const MovingObject& b) {
+    const auto& [id, world_from_object, velocity_per_s] = a;
+    return std::tie(id, world_from_object, velocity_per_s) == std::tie(b.id, b.world_from_object, b.velocity_per_s);
+}
+
 bool same(const Frame& a, const Frame& b) {
     const auto& [id, track_id, pose_ns, gaze_ns, display_ns, world_from_eye, gaze, sampling, traced, near_m, times,
-                 keyframe, color, depth] = a;
-    return std::tie(id, track_id, pose_ns, gaze_ns, display_ns, traced, near_m, keyframe, color, depth) ==
+                 keyframe, color, depth, moving, moving_map] = a;
+    return std::tie(id, track_id, pose_ns, gaze_ns, display_ns, traced, near_m, keyframe, color, depth, moving_map) ==
                std::tie(b.id, b.track_id, b.pose_time_ns, b.gaze_time_ns, b.display_time_ns, b.traced, b.near_m,
-                        b.keyframe, b.color, b.depth) &&
+                        b.keyframe, b.color, b.depth, b.moving_map) &&
+           std::ranges::equal(moving, b.moving, [](const auto& x, const auto& y) { return same(x, y); }) &&
            same(world_from_eye, b.world_from_eye) && same_direction(gaze[kLeftEye], b.gaze[kLeftEye]) &&
            same_direction(gaze[kRightEye], b.gaze[kRightEye]) && same(sampling, b.sampling) && same(times, b.times);
 }

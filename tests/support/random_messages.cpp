@@ -85,6 +85,8 @@ public:
         return sampling;
     }
 
+    glm::mat4x3 affine() { return {vector(), vector(), vector(), vector()}; }
+
 private:
     std::mt19937& random_;
 };
@@ -148,6 +150,11 @@ Frame frame(Maker& make) {
     frame.keyframe = make.flag();
     frame.color = make.bytes(make.count(5000), 255);
     frame.depth = make.bytes(make.count(2000), 255);
+    if (make.flag()) {
+        const auto count = make.integer<std::uint32_t>(1, kMaxMovingObjects);
+        for (std::uint32_t i = 0; i < count; ++i) frame.moving.push_back({i * 16777619U, make.affine(), make.affine()});
+        frame.moving_map = make.bytes(1 + make.count(2000), 255);
+    }
     return frame;
 }
 

@@ -49,14 +49,17 @@ private:
 /// Counts its calls.
 class FakeTracer : public Tracer {
 public:
-    void trace(std::span<const TraceTask> tasks) const noexcept override {
+    TraceCounts trace(std::span<const TraceTask> tasks, double time_s) const noexcept override {
         ++calls;
         tasks_per_call = static_cast<int>(tasks.size());
+        last_time_s = time_s;
+        return {};
     }
     [[nodiscard]] std::string name() const override { return "fake"; }
 
     mutable std::atomic<int> calls{0};
     mutable std::atomic<int> tasks_per_call{0};
+    mutable std::atomic<double> last_time_s{-1.0};
 };
 
 /// Fills the left eye's rows with 1, the right eye's with 2.

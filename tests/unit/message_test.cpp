@@ -151,6 +151,35 @@ TEST(Message, FrameIsValidated) {
     refused([](Frame& f) { f.sampling[1].level[17] = kMaxLevel + 1; }, "Frame.eyes[1].sampling.level");
     refused([](Frame& f) { f.traced = kMaxTraced + 1; }, "Frame.traced");
     refused([](Frame& f) { f.near_m = 0.0F; }, "Frame.near_m");
+    refused([](Frame& f) { f.moving_map = {1}; }, "Frame.moving_map");
+}
+
+TEST(Message, MovingObjectsAreValidated) {
+    Frame frame = some_frame();
+    frame.moving.resize(kMaxMovingObjects);
+    for (std::size_t i = 0; i < frame.moving.size(); ++i) frame.moving[i].id = static_cast<std::uint32_t>(3 * i);
+    frame.moving_map = {1};
+    const auto refused = [&frame](const std::function<void(Frame&)>& change, const std::string& field) {
+        expect_refused<Frame>(frame, change, field);
+    };
+    refused([](Frame& f) { f.moving.push_back({1, {}, {}}); }, "Frame.moving");
+    refused([](Frame& f) { f.moving[253].id = f.moving[7].id; }, "Frame.moving.id");
+    refused([](Frame& f) { f.moving[9].world_from_object[3].z = kNaN; }, "Frame.moving.world_from_object");
+    refused([](Frame& f) { f.moving[0].world_from_object[0].x = 2e6F; }, "Frame.moving.world_from_object");
+    refused([](Frame& f) { f.moving[9].velocity_per_s[2].y = -kInfinity; }, "Frame.moving.velocity_per_s");
+    refused([](Frame& f) { f.moving_map.clear(); }, "Frame.moving_map");
+    refused([](Frame& f) { f.moving.clear(); }, "Frame.moving_map");
+}
+
+TEST(Message, AStillFrameHasNoByteOfMotion) {
+    Frame frame = some_frame();
+    const std::size_t still_bytes = encode_message(frame).size();
+    frame.moving.resize(2);
+    frame.moving[1].id = 1;
+    frame.moving_map = {1, 2, 3, 4};
+    const std::size_t moving_bytes = encode_message(frame).size();
+    EXPECT_GE(moving_bytes, still_bytes + 2 * 100 + 4);
+    EXPECT_LE(moving_bytes, still_bytes + 2 * 100 + 4 + 32) << "lengths, offsets and padding";
 }
 
 TEST(Message, SmallMessagesAreValidated) {
