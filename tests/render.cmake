@@ -15,8 +15,9 @@ macula_test(tracer_test
 # Mesa's rasteriser threads are not instrumented, so that contexts stay out of the sanitizer runs ("fast").
 macula_test(kernels_gl_test SOURCES differential/kernels_gl_test.cpp LINK macula_kernels macula_gl LABELS gl)
 macula_kernel_text(kernels_gl_test
-    server/kernels/brdf.h server/kernels/camera.h server/kernels/color.h server/kernels/light.h
-    server/kernels/shade.h server/kernels/texture.h
+    server/kernels/area_light.h server/kernels/brdf.h server/kernels/camera.h server/kernels/color.h
+    server/kernels/fresnel.h server/kernels/light.h server/kernels/microfacet.h server/kernels/shade.h
+    server/kernels/texture.h
     tests/differential/kernel_cases.h tests/differential/kernel_cases_main.glsl)
 
 macula_test(tracer_golden_test

@@ -1,21 +1,103 @@
 #pragma once
 
-#include "protocol/gl/kernel_language.h"
+#include "server/kernels/fresnel.h"
+#include "server/kernels/microfacet.h"
 
-// The metallic-roughness reflectance of glTF 2.0, Appendix B: a GGX microfacet layer with height-correlated Smith
-// masking and Schlick's Fresnel term, and under it a Lambert base. The base receives what the layer lets in and out
-// (Shirley et al. 1997, "A practitioners' assessment of light reflection models", eq. 6): glTF's own example mix
-// takes the loss at the half vector, and reflects up to 13 % more than arrives.
+// The metallic-roughness reflectance of glTF 2.0, Appendix B, without its losses and gains: a GGX microfacet lobe with
+// height-correlated Smith masking and Schlick's Fresnel term; a lobe for the light that bounces between microfacets
+// (Kulla and Conty 2017, "Revisiting physically based shading at Imageworks"), which single scattering loses; and a
+// Lambert base that receives what both leave. A white surface reflects all light, whatever its roughness, and light
+// and view are interchangeable.
 
 KERNEL_BEGIN
-
-const float kPi = 3.14159265F;
 
 /// Specular reflectance of a dielectric at normal incidence (glTF 2.0 B.3.5).
 const float kDielectricF0 = 0.04F;
 
-/// Perceptual roughness below which highlights of point lights would be lost between samples and to rounding.
-const float kMinRoughness = 0.045F;
+/// A surface as seen from one direction: all that its reflectance needs to know except the light's direction. Made
+/// once per hit, read once per light.
+struct Surface {
+    vec3 f0;    ///< specular reflectance at normal incidence
+    float f90;  ///< and at grazing incidence
+    AlbedoCurves curves;
+    vec3 scatter;          ///< multiple-scattering lobe per loss(n.l), 1/sr
+    vec3 base;             ///< Lambert base per entry(n.l), 1/sr
+    vec3 entry;            ///< share of light that enters the base: x - y grazing(n.l) - z loss(n.l)
+    vec3 specular_albedo;  ///< share of uniform light that the lobes send to the viewer
+    vec3 base_albedo;      ///< and that the base sends
+};
+
+/// Colour of the light that leaves the microfacets after more than one bounce, as a share of what single scattering
+/// with a Fresnel term of one loses: the geometric series of Kulla and Conty 2017 over the mean Fresnel reflectance.
+KERNEL vec3 multiple_scattering_color(vec3 f0, float f90, float mean_loss) {
+    vec3 mean = f0 + (vec3(f90) - f0) * (1.0F / 21.0F);
+    return mean * mean * (1.0F - mean_loss) / (vec3(1.0F) - mean * mean_loss);
+}
+KERNEL float multiple_scattering_share(float f0, float f90, float mean_loss) {
+    float mean = f0 + (f90 - f0) * (1.0F / 21.0F);
+    return mean * mean * (1.0F - mean_loss) / (1.0F - mean * mean_loss);
+}
+
+/// A metallic-roughness surface. `dielectric_f0` and `dielectric_f90` are those of its dielectric part
+/// (KHR_materials_ior, KHR_materials_specular), `base_color` that of metal and base, `opacity` the share of light
+/// entering the dielectric that stays in its base instead of being transmitted (KHR_materials_transmission: 1 -
+/// transmission). `n_dot_v` is the cosine of the view; one that a bent normal turns away counts as grazing. Light
+/// that enters a base under coloured specular is what the colour's largest component leaves, as the extension has it.
+KERNEL Surface make_surface(vec3 base_color, float metallic, float roughness, vec3 dielectric_f0, float dielectric_f90,
+                            float opacity, float n_dot_v) {
+    float r = clamp(roughness, kMinRoughness, 1.0F);
+    float dielectric = 1.0F - metallic;
+    float strongest_f0 = max(dielectric_f0.x, max(dielectric_f0.y, dielectric_f0.z));
+    Surface s;
+    s.f0 = dielectric_f0 * dielectric + base_color * metallic;
+    s.f90 = dielectric_f90 * dielectric + metallic;
+    s.curves = make_albedo_curves(r);
+    Albedos mean = mean_albedos(r);
+    Albedos seen = albedos_at(s.curves, max(n_dot_v, 1.0e-4F));
+
+    vec3 color = multiple_scattering_color(dielectric_f0, dielectric_f90, mean.loss) * dielectric +
+                 multiple_scattering_color(base_color, 1.0F, mean.loss) * metallic;
+    s.scatter = color * (seen.loss / (kPi * mean.loss));
+    s.specular_albedo = s.f0 * (1.0F - seen.loss - seen.grazing) + vec3(s.f90 * seen.grazing) + color * seen.loss;
+
+    float share = multiple_scattering_share(strongest_f0, dielectric_f90, mean.loss);
+    s.entry = vec3(1.0F - strongest_f0, dielectric_f90 - strongest_f0, share - strongest_f0);
+    float seen_entry = s.entry.x - s.entry.y * seen.grazing - s.entry.z * seen.loss;
+    float mean_entry = s.entry.x - s.entry.y * mean.grazing - s.entry.z * mean.loss;
+    s.base_albedo = base_color * (dielectric * opacity * seen_entry);
+    s.base = s.base_albedo * (1.0F / (kPi * max(mean_entry, 1.0e-4F)));
+    return s;
+}
+
+/// A plain surface of glTF 2.0 (B.3.5): dielectrics reflect 4 %, metals their base colour.
+KERNEL Surface make_surface(vec3 base_color, float metallic, float roughness, float n_dot_v) {
+    return make_surface(base_color, metallic, roughness, vec3(kDielectricF0), 1.0F, 1.0F, n_dot_v);
+}
+
+/// Reflectance distribution times n.l, 1/sr: radiance towards `view`, for which the surface was made, per irradiance
+/// that `light` brings to a surface that faces it. All vectors are unit and point away from the surface; 0 where
+/// n.l <= 0.
+KERNEL vec3 reflect_light(KERNEL_IN(Surface) surface, vec3 normal, vec3 view, vec3 light) {
+    float n_dot_l = max(dot(normal, light), 0.0F);
+    float n_dot_v = max(dot(normal, view), 1.0e-4F);
+    vec3 sum = light + view;
+    vec3 h = sum * (1.0F / sqrt(max(dot(sum, sum), 1.0e-12F)));
+    vec3 n_cross_h = cross(normal, h);
+    float alpha = surface.curves.alpha;
+    float d = ggx_distribution(max(dot(normal, h), 0.0F), dot(n_cross_h, n_cross_h), alpha);
+    float v = smith_visibility(max(n_dot_l, 1.0e-4F), n_dot_v, alpha);
+    vec3 f = surface.f0 + (vec3(surface.f90) - surface.f0) * schlick_weight(dot(view, h));
+    Albedos lit = albedos_at(surface.curves, n_dot_l);
+    float entry = surface.entry.x - surface.entry.y * lit.grazing - surface.entry.z * lit.loss;
+    return (f * (v * d) + surface.scatter * lit.loss + surface.base * entry) * n_dot_l;
+}
+
+/// Share of uniform light from everywhere that the surface sends to the viewer.
+KERNEL vec3 reflect_uniform_light(KERNEL_IN(Surface) surface) {
+    return surface.specular_albedo + surface.base_albedo;
+}
+
+// The reflectance before multiple scattering and exact coupling, for callers that have not moved to Surface yet.
 
 /// What the reflectance needs to know about a surface.
 struct Reflectance {
@@ -32,34 +114,6 @@ KERNEL Reflectance make_reflectance(vec3 base_color, float metallic, float rough
     result.f0 = vec3(kDielectricF0 * (1.0F - metallic)) + base_color * metallic;
     result.alpha = r * r;
     return result;
-}
-
-/// GGX normal distribution (Walter et al. 2007, eq. 33), 1/sr. `n_cross_h_sq` is |n x h|^2 for the same h, which
-/// stays exact at the peak where 1 - (n.h)^2 does not.
-KERNEL float ggx_distribution(float n_dot_h, float n_cross_h_sq, float alpha) {
-    float a = n_dot_h * alpha;
-    float k = alpha / max(n_cross_h_sq + a * a, 1.0e-9F);
-    return k * k * (1.0F / kPi);
-}
-
-/// Height-correlated Smith masking and shadowing over 4 (n.l) (n.v) (Heitz 2014, eq. 99; glTF 2.0 B.3.3).
-KERNEL float smith_visibility(float n_dot_l, float n_dot_v, float alpha) {
-    float a2 = alpha * alpha;
-    float masking = n_dot_l * sqrt(n_dot_v * n_dot_v * (1.0F - a2) + a2);
-    float shadowing = n_dot_v * sqrt(n_dot_l * n_dot_l * (1.0F - a2) + a2);
-    return 0.5F / (masking + shadowing);
-}
-
-/// How far from normal incidence a cosine is, as Schlick 1994 approximates Fresnel's equations: (1 - cos)^5.
-KERNEL float schlick_weight(float cosine) {
-    float m = clamp(1.0F - cosine, 0.0F, 1.0F);
-    float m2 = m * m;
-    return m2 * m2 * m;
-}
-
-/// Fresnel reflectance by Schlick 1994.
-KERNEL vec3 schlick_fresnel(vec3 f0, float cosine) {
-    return f0 + (vec3(1.0F) - f0) * schlick_weight(cosine);
 }
 
 /// Lambert's base under a dielectric layer, 1/sr: it reflects what the layer does not, 1 - fresnel(n.v), of a white

@@ -12,11 +12,12 @@ struct Light {
     float inverse_range;  ///< 1/m; 0: unlimited
     float spot_scale;     ///< 1 / (cos inner - cos outer); 0: no cone
     float spot_offset;    ///< -cos outer * scale; 1: no cone
+    float radius;         ///< of a luminous sphere, m; of a sun, the sine of its angular radius; 0: a point
 };
 
-/// What a light brings to a point.
+/// What a light, or one point of it, brings to a point.
 struct LightSample {
-    vec3 to_light;    ///< to the light itself, or a unit vector towards a directional one
+    vec3 to_light;    ///< to the point of the light, or a unit vector towards a directional one
     vec3 direction;   ///< unit, towards the light
     vec3 irradiance;  ///< on a surface that faces the light, unshadowed
 };

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "server/kernels/area_light.h"
 #include "server/kernels/camera.h"
 #include "server/kernels/color.h"
 #include "server/kernels/shade.h"
@@ -23,6 +24,10 @@ struct KernelResult {
     vec4 ray;      ///< direction; sRGB coding of a.x
     vec4 light;    ///< irradiance; distance to the light
     vec4 shading;  ///< radiance that the light causes; its green in uniform light
+    vec4 surface;  ///< radiance that one point of it causes by a prepared surface; its green in uniform light
+    vec4 soft;     ///< of one point of the light: irradiance, distance
+    vec4 rect;     ///< of one point of a rectangle: irradiance, distance
+    vec4 refract;  ///< direction behind an interface, and its reflectance
     vec4 normal;   ///< of a normal map; lift off the surface in units of its coordinates
     vec4 texel;    ///< bilinear and nearest lookups of an endless image
     vec4 display;  ///< codes of the three channels and alpha
@@ -72,6 +77,26 @@ KERNEL KernelResult run_case(KernelCase k) {
     Reflectance surface = make_reflectance(vec3(k.f.x, k.f.y, k.f.z), k.f.w, 0.2F + 0.8F * k.c.w);
     vec3 radiance = shade_light(surface, normal, normal, view, s);
     result.shading = vec4(radiance.x, radiance.y, radiance.z, reflect_uniform_light(surface).y);
+
+    light.radius = local ? 0.2F * k.e.x : 0.1F * k.e.x;
+    vec3 origin = vec3(0.1F * k.a.x, 0.1F * k.a.y, 0.1F * k.a.z);
+    LightSample soft = sample_light(light, origin, vec2(k.b.x, k.b.y));
+    result.soft = vec4(soft.irradiance.x, soft.irradiance.y, soft.irradiance.z, length(soft.to_light));
+    Surface prepared = make_surface(vec3(k.f.x, k.f.y, k.f.z), k.f.w, 0.2F + 0.8F * k.c.w, vec3(0.08F * k.a.x), k.a.y,
+                                    k.a.z, dot(normal, view));
+    radiance = shade_light(prepared, normal, normal, view, soft);
+    result.surface = vec4(radiance.x, radiance.y, radiance.z, reflect_uniform_light(prepared).y);
+
+    RectangleLight lamp;
+    lamp.center = towards * 2.0F;
+    lamp.half_u = random_direction(k.d.x, k.d.y) * 0.5F;
+    lamp.half_v = cross(lamp.half_u, random_direction(k.d.z, k.d.w));
+    lamp.radiance = light.intensity;
+    LightSample r = sample_light(lamp, origin, stratified_place(int(3.99F * k.c.x), 2, vec2(k.b.z, k.b.w)));
+    result.rect = vec4(r.irradiance.x, r.irradiance.y, r.irradiance.z, length(r.to_light));
+
+    Refraction bent = refract_ray(view * -1.0F, normal, k.c.x > 0.5F ? 1.0F + k.a.x : 1.0F / (1.0F + k.a.x));
+    result.refract = vec4(bent.direction.x, bent.direction.y, bent.direction.z, bent.reflectance);
 
     vec3 tangent = safe_normalize(cross(normal, random_direction(k.a.x, k.b.y)));
     vec3 bumped = map_normal(normal, vec4(tangent.x, tangent.y, tangent.z, k.a.w > 0.5F ? 1.0F : -1.0F),

@@ -8,12 +8,15 @@
 #include <random>
 #include <vector>
 
+#include "kernel_text/area_light.h"
 #include "kernel_text/brdf.h"
 #include "kernel_text/camera.h"
 #include "kernel_text/color.h"
+#include "kernel_text/fresnel.h"
 #include "kernel_text/kernel_cases.h"
 #include "kernel_text/kernel_cases_main.h"
 #include "kernel_text/light.h"
+#include "kernel_text/microfacet.h"
 #include "kernel_text/shade.h"
 #include "kernel_text/texture.h"
 #include "protocol/gl/buffer.h"
@@ -55,9 +58,9 @@ TEST_P(KernelsOnGl, AgreeWithCpp) {
     ASSERT_TRUE(context) << context.error().message;
     const auto current = CurrentContext::enter(**context);
     ASSERT_TRUE(current) << current.error().message;
-    const auto program =
-        ComputeProgram::build(**context, std::array{camera_text, color_text, brdf_text, light_text, shade_text,
-                                                    texture_text, kernel_cases_text, kernel_cases_main_text});
+    const auto program = ComputeProgram::build(
+        **context, std::array{camera_text, color_text, fresnel_text, microfacet_text, brdf_text, light_text,
+                              area_light_text, shade_text, texture_text, kernel_cases_text, kernel_cases_main_text});
     ASSERT_TRUE(program) << program.error().message;
     constexpr std::uint32_t kSeed = 1;
     SCOPED_TRACE("seed " + std::to_string(kSeed));
@@ -78,6 +81,10 @@ TEST_P(KernelsOnGl, AgreeWithCpp) {
             worst.ray.x = std::max(worst.ray.x, difference(cpp.ray, results[i].ray));
             worst.light.x = std::max(worst.light.x, difference(cpp.light, results[i].light));
             worst.shading.x = std::max(worst.shading.x, difference(cpp.shading, results[i].shading));
+            worst.surface.x = std::max(worst.surface.x, difference(cpp.surface, results[i].surface));
+            worst.soft.x = std::max(worst.soft.x, difference(cpp.soft, results[i].soft));
+            worst.rect.x = std::max(worst.rect.x, difference(cpp.rect, results[i].rect));
+            worst.refract.x = std::max(worst.refract.x, difference(cpp.refract, results[i].refract));
             worst.normal.x = std::max(worst.normal.x, difference(cpp.normal, results[i].normal));
             worst.texel.x = std::max(worst.texel.x, difference(cpp.texel, results[i].texel));
             const glm::vec4 codes = glm::abs(cpp.display - results[i].display);
@@ -87,6 +94,10 @@ TEST_P(KernelsOnGl, AgreeWithCpp) {
         EXPECT_LT(worst.ray.x, 1e-5F);
         EXPECT_LT(worst.light.x, 1e-4F);
         EXPECT_LT(worst.shading.x, 1e-3F);
+        EXPECT_LT(worst.surface.x, 1e-3F);
+        EXPECT_LT(worst.soft.x, 1e-3F);
+        EXPECT_LT(worst.rect.x, 1e-3F);
+        EXPECT_LT(worst.refract.x, 1e-3F);
         EXPECT_LT(worst.normal.x, 1e-4F);
         EXPECT_LT(worst.texel.x, 1e-3F);
         // A value between two codes may round either way.
@@ -94,6 +105,8 @@ TEST_P(KernelsOnGl, AgreeWithCpp) {
         EXPECT_EQ(worst.display.w, 0.0F);
         std::printf("worst relative differences: ray %.1e light %.1e shading %.1e normal %.1e texel %.1e\n",
                     worst.ray.x, worst.light.x, worst.shading.x, worst.normal.x, worst.texel.x);
+        std::printf("  surface %.1e soft %.1e rectangle %.1e refraction %.1e\n", worst.surface.x, worst.soft.x,
+                    worst.rect.x, worst.refract.x);
     });
     EXPECT_TRUE(read) << read.error().message;
 }

@@ -18,11 +18,13 @@ kernels::Light point_light(const vec3& position, float range_m = 0.0F) {
             vec3(10.0F, 5.0F, 1.0F),
             range_m > 0.0F ? 1.0F / range_m : 0.0F,
             0.0F,
-            1.0F};
+            1.0F,
+            0.0F};
 }
 
 TEST(LightKernel, DirectionalLightIsTheSameEverywhere) {
-    const kernels::Light sun{vec4(0.6F, 0.8F, 0.0F, 0.0F), vec3(-0.6F, -0.8F, 0.0F), vec3(3.0F), 0.0F, 0.0F, 1.0F};
+    const kernels::Light sun{
+        vec4(0.6F, 0.8F, 0.0F, 0.0F), vec3(-0.6F, -0.8F, 0.0F), vec3(3.0F), 0.0F, 0.0F, 1.0F, 0.0F};
     for (const vec3 point : {vec3(0.0F), vec3(1e4F, -300.0F, 12.0F)}) {
         const kernels::LightSample s = kernels::sample_light(sun, point);
         EXPECT_NEAR(s.irradiance.x, 3.0F, 1e-5F);
@@ -56,7 +58,7 @@ TEST(LightKernel, SpotIsFullInsideTheInnerConeAndDarkOutsideTheOuter) {
     const float cos_outer = std::cos(0.5F);
     const float scale = 1.0F / (cos_inner - cos_outer);
     const kernels::Light spot{
-        vec4(0.0F, 0.0F, 0.0F, 1.0F), vec3(0.0F, 0.0F, -1.0F), vec3(1.0F), 0.0F, scale, -cos_outer * scale};
+        vec4(0.0F, 0.0F, 0.0F, 1.0F), vec3(0.0F, 0.0F, -1.0F), vec3(1.0F), 0.0F, scale, -cos_outer * scale, 0.0F};
     const auto at = [&](float angle_rad) {
         return kernels::sample_light(spot, vec3(std::sin(angle_rad), 0.0F, -std::cos(angle_rad))).irradiance.x;
     };
