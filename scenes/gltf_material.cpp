@@ -175,7 +175,7 @@ Expected<int> GltfMaterialReader::image(int gltf_image, bool srgb) {
     TextureImage decoded;
     if (const int other = images_[index][srgb ? 0 : 1]; other >= 0) {
         decoded = scene_.images[static_cast<std::size_t>(other)];
-        if (decoded.rgba.size() / 4 > context_.texels_left) return context_.error(element, "too many texels");
+        if (decoded.texel_count() > context_.texels_left) return context_.error(element, "too many texels");
     } else {
         std::span<const std::uint8_t> bytes = context_.document.image_bytes[index];
         if (from.bufferView >= 0) {
@@ -190,7 +190,7 @@ Expected<int> GltfMaterialReader::image(int gltf_image, bool srgb) {
         decoded.name = from.uri.empty() ? element : from.uri;
     }
     decoded.srgb = srgb;
-    context_.texels_left -= decoded.rgba.size() / 4;
+    context_.texels_left -= decoded.texel_count();
     scene_.images.push_back(std::move(decoded));
     return slot = static_cast<int>(scene_.images.size()) - 1;
 }

@@ -4,110 +4,161 @@
 #include <array>
 #include <cstring>
 #include <exception>
+#include <limits>
 #include <memory>
+#include <optional>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
+#include "scenes/image_format.h"
+
 namespace macula {
 namespace {
 
-constexpr std::array<std::uint8_t, 8> kPngSignature = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'};
-
-bool is_png(std::span<const std::uint8_t> bytes) {
-    return bytes.size() >= kPngSignature.size() &&
-           std::equal(kPngSignature.begin(), kPngSignature.end(), bytes.begin());
+TexelType texel_type(const OIIO::TypeDesc& type) {
+    if (type.basetype == OIIO::TypeDesc::UINT16) return TexelType::u16;
+    if (type.basetype == OIIO::TypeDesc::HALF) return TexelType::f16;
+    return type.basetype == OIIO::TypeDesc::FLOAT ? TexelType::f32 : TexelType::u8;
 }
 
-bool is_jpeg(std::span<const std::uint8_t> bytes) {
-    return bytes.size() >= 3 && bytes[0] == 0xFF && bytes[1] == 0xD8 && bytes[2] == 0xFF;
+OIIO::TypeDesc oiio_type(TexelType type) {
+    constexpr std::array kTypes = {OIIO::TypeDesc::UINT8, OIIO::TypeDesc::UINT16, OIIO::TypeDesc::HALF,
+                                   OIIO::TypeDesc::FLOAT};
+    return kTypes.at(static_cast<std::size_t>(type));
 }
 
-/// Walks the chunks (length, type, data, checksum) to IEND. OpenImageIO 2.4 leaks where libpng runs out of bytes.
-bool is_cut_off_png(std::span<const std::uint8_t> bytes) {
-    constexpr std::size_t kAroundData = 12;
-    std::span<const std::uint8_t> rest = bytes.subspan(kPngSignature.size());
-    while (rest.size() >= kAroundData) {
-        const std::size_t length = std::size_t{rest[0]} << 24U | std::size_t{rest[1]} << 16U |
-                                   std::size_t{rest[2]} << 8U | std::size_t{rest[3]};
-        if (length > rest.size() - kAroundData) return true;
-        if (std::memcmp(&rest[4], "IEND", 4) == 0) return false;
-        rest = rest.subspan(kAroundData + length);
-    }
-    return true;
-}
+struct DecodeLimits {
+    std::size_t side_px;
+    std::size_t texels;
+    bool environment;  ///< colour only, however many channels there are
+};
 
-/// Position of the last marker FF `code`; -1 if there is none.
-std::ptrdiff_t last_marker(std::span<const std::uint8_t> bytes, std::uint8_t code) {
-    for (std::size_t i = bytes.size(); i >= 2; --i)
-        if (bytes[i - 2] == 0xFF && bytes[i - 1] == code) return static_cast<std::ptrdiff_t>(i - 2);
-    return -1;
-}
-
-/// libjpeg fills what is missing with grey and is content; a whole file has an end marker after its last scan, and
-/// entropy-coded data cannot contain either marker.
-bool is_cut_off_jpeg(std::span<const std::uint8_t> bytes) {
-    constexpr std::uint8_t kStartOfScan = 0xDA;
-    constexpr std::uint8_t kEndOfImage = 0xD9;
-    return last_marker(bytes, kEndOfImage) <= last_marker(bytes, kStartOfScan);
-}
-
-/// Spreads 1 to 4 channels, tightly packed at the front of `rgba`, to four.
-void expand_channels(std::vector<std::uint8_t>& rgba, int channels) {
-    if (channels == 4) return;
-    const auto n = static_cast<std::size_t>(channels);
-    for (std::size_t i = rgba.size() / 4; i-- > 0;) {
-        std::array<std::uint8_t, 4> texel = {0, 0, 0, 255};
-        std::memcpy(texel.data(), &rgba[i * n], n);
-        if (channels == 2) texel[3] = texel[1];
-        if (channels <= 2) texel[1] = texel[2] = texel[0];
-        std::memcpy(&rgba[i * 4], texel.data(), 4);
-    }
-}
-
-Expected<TextureImage> decode(std::span<const std::uint8_t> bytes, const char* format, std::size_t max_side_px,
-                              std::size_t max_texels) {
+Expected<TextureImage> decode(std::span<const std::uint8_t> bytes, ImageFormat format, const DecodeLimits& limits,
+                              bool straight_alpha = true) {
     OIIO::Filesystem::IOMemReader memory(const_cast<std::uint8_t*>(bytes.data()), bytes.size());
-    const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(format);
-    if (!input) return fail(ErrorCode::input_file, std::string("OpenImageIO has no reader for ") + format);
+    const char* reader = reader_name(format);
+    const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(reader);
+    if (!input) return fail(ErrorCode::input_file, std::string("OpenImageIO has no reader for ") + format_name(format));
     OIIO::ImageSpec config;
-    config["oiio:UnassociatedAlpha"] = 1;
+    if (straight_alpha) config["oiio:UnassociatedAlpha"] = 1;
     OIIO::ImageSpec spec;
-    if (!input->set_ioproxy(&memory) || !input->open(std::string("memory.") + format, spec, config))
+    if (!input->set_ioproxy(&memory) || !input->open(std::string("memory.") + reader, spec, config))
         return fail(ErrorCode::input_file, "it cannot be decoded: " + input->geterror());
     const auto width = static_cast<std::size_t>(std::max(spec.width, 0));
     const auto height = static_cast<std::size_t>(std::max(spec.height, 0));
-    if (width == 0 || height == 0 || spec.depth > 1 || spec.nchannels < 1 || spec.nchannels > 4)
-        return fail(ErrorCode::input_file, "it has no pixels or too many channels");
-    if (width > max_side_px || height > max_side_px || width * height > max_texels)
-        return fail(ErrorCode::input_file,
-                    "it is too large: " + std::to_string(width) + " x " + std::to_string(height) + " pixels");
+    if (std::string defect = size_defect(width, height, limits.side_px, limits.texels); !defect.empty())
+        return fail(ErrorCode::input_file, std::move(defect));
+    if (spec.depth > 1 || spec.nchannels < 1 || (spec.nchannels > 4 && !limits.environment))
+        return fail(ErrorCode::input_file, "it is a volume, or has no or too many channels");
     TextureImage image;
     image.width_px = spec.width;
     image.height_px = spec.height;
-    image.rgba.resize(width * height * 4);
-    if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::UINT8, image.rgba.data()))
+    image.channels = limits.environment ? (spec.nchannels < 3 ? 1 : 3) : spec.nchannels;
+    image.type = texel_type(spec.format);
+    image.texels.resize(image.texel_count() * image.texel_bytes());
+    if (!input->read_image(0, 0, 0, image.channels, oiio_type(image.type), image.texels.data()))
         return fail(ErrorCode::input_file, "it cannot be decoded: " + input->geterror());
-    expand_channels(image.rgba, spec.nchannels);
     return image;
+}
+
+/// OpenImageIO's third-party readers may throw.
+Expected<TextureImage> decode_or_fail(std::span<const std::uint8_t> bytes, ImageFormat format,
+                                      const DecodeLimits& limits, bool straight_alpha = true) {
+    try {
+        return decode(bytes, format, limits, straight_alpha);
+    } catch (const std::exception& exception) {
+        return fail(ErrorCode::input_file, std::string("it cannot be decoded: ") + exception.what());
+    }
+}
+
+/// The WebP reader of OpenImageIO 2.4 multiplies alpha into the colours, whatever it is asked for; later ones obey.
+/// It has disobeyed if asking makes no difference. Colours under a low alpha lose bits.
+Expected<TextureImage> with_straight_alpha(TextureImage image, std::span<const std::uint8_t> bytes,
+                                           const DecodeLimits& limits) {
+    if (image.channels != 4) return image;
+    Expected<TextureImage> multiplied = decode_or_fail(bytes, ImageFormat::webp, limits, false);
+    if (!multiplied) return multiplied;
+    if (multiplied->texels != image.texels) return image;
+    for (std::size_t i = 0; i < image.texels.size(); i += 4) {
+        const unsigned alpha = image.texels[i + 3];
+        for (std::size_t c = i; c < i + 3 && alpha > 0; ++c)
+            image.texels[c] = static_cast<std::uint8_t>(std::min(255U, (image.texels[c] * 255U + alpha / 2) / alpha));
+    }
+    return image;
+}
+
+/// Replaces each value by `repaired(value)`.
+template <class Value, class Repaired>
+void repair_values(std::vector<std::uint8_t>& texels, Repaired&& repaired) {
+    for (std::size_t at = 0; at < texels.size(); at += sizeof(Value)) {
+        Value value;
+        std::memcpy(&value, &texels[at], sizeof(Value));
+        value = repaired(value);
+        std::memcpy(&texels[at], &value, sizeof(Value));
+    }
+}
+
+void repair_radiance(TextureImage& image) {
+    if (image.type == TexelType::f32) {
+        repair_values<float>(image.texels, [](float value) {
+            return value > 0.0F ? std::min(value, std::numeric_limits<float>::max()) : 0.0F;
+        });
+    } else if (image.type == TexelType::f16) {
+        constexpr std::uint16_t kInfinity = 0x7C00;  // above it are the NaNs, and then all that is negative
+        repair_values<std::uint16_t>(image.texels, [](std::uint16_t bits) {
+            return bits == kInfinity ? static_cast<std::uint16_t>(kInfinity - 1)
+                                     : (bits > kInfinity ? std::uint16_t{0} : bits);
+        });
+    }
 }
 
 }  // namespace
 
 Expected<TextureImage> decode_image(std::span<const std::uint8_t> bytes, std::size_t max_side_px,
                                     std::size_t max_texels) {
-    const bool png = is_png(bytes);
-    if (!png && !is_jpeg(bytes)) return fail(ErrorCode::input_file, "it is neither PNG nor JPEG");
-    if (png && is_cut_off_png(bytes)) return fail(ErrorCode::input_file, "the PNG data is cut off");
-    if (!png && is_cut_off_jpeg(bytes)) return fail(ErrorCode::input_file, "the JPEG data is cut off");
-    try {
-        return decode(bytes, png ? "png" : "jpeg", max_side_px, max_texels);
-    } catch (const std::exception& exception) {
-        return fail(ErrorCode::input_file, std::string("it cannot be decoded: ") + exception.what());
-    }
+    const std::optional<ImageFormat> format = image_format(bytes);
+    if (!format || *format == ImageFormat::hdr || *format == ImageFormat::exr)
+        return fail(ErrorCode::input_file, "it is neither PNG nor JPEG nor WebP");
+    if (std::string defect = image_defect(*format, bytes, max_side_px, max_texels); !defect.empty())
+        return fail(ErrorCode::input_file, std::move(defect));
+    const DecodeLimits limits{max_side_px, max_texels, false};
+    Expected<TextureImage> image = decode_or_fail(bytes, *format, limits);
+    if (!image || *format != ImageFormat::webp) return image;
+    return with_straight_alpha(*std::move(image), bytes, limits);
+}
+
+Expected<TextureImage> decode_environment(std::span<const std::uint8_t> bytes, std::size_t max_side_px,
+                                          std::size_t max_texels) {
+    const std::optional<ImageFormat> format = image_format(bytes);
+    if (format != ImageFormat::hdr && format != ImageFormat::exr)
+        return fail(ErrorCode::input_file, "it is neither HDR nor EXR");
+    Expected<TextureImage> image = decode_or_fail(bytes, *format, {max_side_px, max_texels, true});
+    if (image) repair_radiance(*image);
+    return image;
+}
+
+Expected<TextureImage> load_environment(const std::filesystem::path& file) {
+    constexpr std::size_t kMaxSide_px = std::size_t{1} << 14U;
+    constexpr std::size_t kMaxTexels = kMaxSide_px * kMaxSide_px / 2;
+    constexpr std::uint64_t kMaxBytes = kMaxTexels * 16;
+    const std::string name = file.string();
+    std::error_code error;
+    const std::uintmax_t size = std::filesystem::file_size(file, error);
+    if (error) return fail(ErrorCode::input_file, "cannot open " + name + ": " + error.message());
+    if (size > kMaxBytes)
+        return fail(ErrorCode::input_file, name + " is larger than " + std::to_string(kMaxBytes) + " bytes");
+    std::vector<std::uint8_t> bytes(size);
+    if (OIIO::Filesystem::read_bytes(name, bytes.data(), bytes.size()) != bytes.size())
+        return fail(ErrorCode::input_file, "cannot read " + name);
+    Expected<TextureImage> image = decode_environment(bytes, kMaxSide_px, kMaxTexels);
+    if (!image) return fail(ErrorCode::input_file, name + ": " + image.error().message);
+    image->name = name;
+    return image;
 }
 
 }  // namespace macula

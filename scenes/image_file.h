@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <span>
 
 #include "protocol/base/error.h"
@@ -9,10 +10,19 @@
 
 namespace macula {
 
-/// Decodes a PNG or JPEG file in memory to RGBA8; grey becomes RGB, a missing alpha 255. `srgb` is left false.
-/// Errors: `input_file` with the reason, not naming the image: an unknown format, broken or cut off, a side over
-/// `max_side_px`, or more than `max_texels`.
+/// Decodes a PNG, JPEG or WebP file in memory; channels and their type stay as they are. `srgb` is left false.
+/// Errors: `input_file` with the reason, not naming the image: an unknown format, broken or cut off, animated, a side
+/// over `max_side_px`, or more than `max_texels`.
 Expected<TextureImage> decode_image(std::span<const std::uint8_t> bytes, std::size_t max_side_px,
                                     std::size_t max_texels);
+
+/// Decodes a Radiance HDR or OpenEXR file in memory, for an environment: grey or RGB, f16 or f32 as the file has it;
+/// alpha and further channels are left out. Values that no light has are repaired: negative ones and NaN become 0,
+/// infinite ones the largest finite value of the type. Errors: as decode_image.
+Expected<TextureImage> decode_environment(std::span<const std::uint8_t> bytes, std::size_t max_side_px,
+                                          std::size_t max_texels);
+
+/// Reads such a file, up to 16384 x 8192 pixels. Errors: `input_file`, naming the file.
+Expected<TextureImage> load_environment(const std::filesystem::path& file);
 
 }  // namespace macula

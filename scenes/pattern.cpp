@@ -24,8 +24,9 @@ TextureImage paint(std::string name, int size_px, int grid, Color color) {
     image.name = std::move(name);
     image.width_px = size_px;
     image.height_px = size_px;
+    image.channels = 3;
     image.srgb = true;
-    image.rgba.reserve(static_cast<std::size_t>(size_px) * static_cast<std::size_t>(size_px) * 4);
+    image.texels.reserve(image.texel_count() * image.texel_bytes());
     const float step = 1.0F / static_cast<float>(size_px * grid);
     for (int y = 0; y < size_px; ++y)
         for (int x = 0; x < size_px; ++x) {
@@ -36,8 +37,7 @@ TextureImage paint(std::string name, int size_px, int grid, Color color) {
                                  (static_cast<float>(y * grid + j) + 0.5F) * step);
             const glm::vec3 bytes =
                 glm::clamp(sum / static_cast<float>(grid * grid), 0.0F, 1.0F) * 255.0F + glm::vec3(0.5F);
-            for (int c = 0; c < 3; ++c) image.rgba.push_back(static_cast<std::uint8_t>(bytes[c]));
-            image.rgba.push_back(255);
+            for (int c = 0; c < 3; ++c) image.texels.push_back(static_cast<std::uint8_t>(bytes[c]));
         }
     return image;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -17,13 +18,28 @@ namespace macula {
 enum class TextureWrap : std::uint8_t { repeat, mirrored_repeat, clamp_to_edge };
 enum class TextureFilter : std::uint8_t { nearest, linear };
 
-/// Pixels of an image, RGBA8, row 0 on top (glTF's v = 0). `srgb` says that RGB are sRGB-coded colour.
+/// What a channel of a texel is stored as. Codes of integers stand for 0 to 1.
+enum class TexelType : std::uint8_t { u8, u16, f16, f32 };
+
+constexpr std::size_t byte_count(TexelType type) {
+    return type == TexelType::u8 ? 1 : (type == TexelType::f32 ? 4 : 2);
+}
+
+/// Pixels of an image, as small as its source had them. `srgb` says that grey and RGB are sRGB-coded colour.
 struct TextureImage {
     std::string name;  ///< file or element it came from, for messages
     int width_px = 0;
     int height_px = 0;
+    int channels = 4;  ///< 1 grey, 2 grey and alpha, 3 RGB, 4 RGBA; alpha is not multiplied into the others
+    TexelType type = TexelType::u8;
     bool srgb = false;
-    std::vector<std::uint8_t> rgba;
+    std::vector<std::uint8_t> texels;  ///< row 0 on top (glTF's v = 0), no gaps, in the machine's byte order
+
+    [[nodiscard]] std::size_t texel_count() const {
+        return static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px);
+    }
+    /// Bytes from a texel to the next.
+    [[nodiscard]] std::size_t texel_bytes() const { return static_cast<std::size_t>(channels) * byte_count(type); }
 };
 
 /// A texture as a material uses it. Negative `image` means that there is none.

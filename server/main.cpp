@@ -69,7 +69,7 @@ Expected<std::shared_ptr<const Scene>> load(const std::string& name, const Logge
     for (const std::string& warning : loaded->warnings) logger->warn("scene: {}", warning);
     const Scene& scene = *loaded->scene;
     std::size_t texture_bytes = 0;
-    for (const TextureImage& image : scene.images) texture_bytes += image.rgba.size();
+    for (const TextureImage& image : scene.images) texture_bytes += image.texels.size();
     logger->info(
         "scene {}: {} triangles in {} instances of {} meshes, {} materials, {} textures ({:.1f} MB), {} lights; "
         "loaded in {:.2f} s",

@@ -22,19 +22,8 @@ struct Corners {
     }
 };
 
-vec4 texel(const ShadingTexture& texture, int x, int y) {
-    const std::uint8_t* rgba =
-        texture.rgba + 4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(texture.lookup.size_px.x) +
-                            static_cast<std::size_t>(x));
-    const float* decode = texture.decode_rgb;
-    return {decode[rgba[0]], decode[rgba[1]], decode[rgba[2]], static_cast<float>(rgba[3]) * (1.0F / 255.0F)};
-}
-
 vec4 look_up(const ShadingTexture& texture, const Corners& corners) {
-    const kernels::TexelFootprint f = kernels::texel_footprint(texture.lookup, corners.of(texture.uv));
-    if (texture.lookup.nearest == 1) return texel(texture, f.x.x, f.y.x);
-    return kernels::mix_texels(f, texel(texture, f.x.x, f.y.x), texel(texture, f.x.y, f.y.x),
-                               texel(texture, f.x.x, f.y.y), texel(texture, f.x.y, f.y.y));
+    return look_up(texture.view, corners.of(texture.uv));
 }
 
 vec4 base_color(const ShadingInstance& instance, const Corners& corners) {

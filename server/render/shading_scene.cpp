@@ -6,8 +6,6 @@
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
-#include "server/kernels/color.h"
-
 namespace macula {
 namespace {
 
@@ -27,11 +25,6 @@ kernels::Light kernel_light(const Light& light) {
     return result;
 }
 
-int kernel_wrap(TextureWrap wrap) {
-    if (wrap == TextureWrap::clamp_to_edge) return kernels::kWrapClampToEdge;
-    return wrap == TextureWrap::mirrored_repeat ? kernels::kWrapMirroredRepeat : kernels::kWrapRepeat;
-}
-
 template <class T>
 std::size_t bytes_of(const std::vector<std::vector<T>>& arrays) {
     std::size_t bytes = 0;
@@ -46,10 +39,6 @@ bool mirrors(const Instance& instance) {
 }
 
 ShadingScene::ShadingScene(std::shared_ptr<const Scene> scene) : scene_(std::move(scene)) {
-    for (std::size_t code = 0; code < decode_linear_.size(); ++code) {
-        decode_linear_[code] = static_cast<float>(code) / 255.0F;
-        decode_srgb_[code] = kernels::linear_from_srgb(decode_linear_[code]);
-    }
     const std::size_t count = scene_->instances.size();
     instances_.reserve(count);
     normals_.reserve(count);
@@ -107,17 +96,8 @@ void ShadingScene::add_instance(const Instance& instance) {
 }
 
 ShadingTexture ShadingScene::texture(const TextureUse& use, const Mesh& mesh) const {
-    const TextureImage& image = scene_->images[static_cast<std::size_t>(use.image)];
-    ShadingTexture result;
-    result.lookup.uv_scale_rotation = use.uv_scale_rotation;
-    result.lookup.uv_offset = use.uv_offset;
-    result.lookup.size_px = {image.width_px, image.height_px};
-    result.lookup.wrap = {kernel_wrap(use.wrap_u), kernel_wrap(use.wrap_v)};
-    result.lookup.nearest = use.filter == TextureFilter::nearest ? 1 : 0;
-    result.rgba = image.rgba.data();
-    result.decode_rgb = image.srgb ? decode_srgb_.data() : decode_linear_.data();
-    result.uv = use.uv_set == 0 ? mesh.uv0.data() : mesh.uv1.data();
-    return result;
+    return {view_texture(use, scene_->images[static_cast<std::size_t>(use.image)]),
+            use.uv_set == 0 ? mesh.uv0.data() : mesh.uv1.data()};
 }
 
 std::size_t ShadingScene::memory_bytes() const {

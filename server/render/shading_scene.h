@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -11,7 +10,7 @@
 
 #include "scenes/scene.h"
 #include "server/kernels/light.h"
-#include "server/kernels/texture.h"
+#include "server/render/texture_lookup.h"
 
 namespace macula {
 
@@ -25,15 +24,10 @@ enum Feature : std::uint32_t {
     kUnlit = 1U << 5,
 };
 
-/// Decoded values of the 256 codes of a texel's channel.
-using DecodeTable = std::array<float, 256>;
-
 /// A texture as one instance reads it.
 struct ShadingTexture {
-    kernels::Texture lookup{};
-    const std::uint8_t* rgba = nullptr;
-    const float* decode_rgb = nullptr;  ///< a DecodeTable
-    const glm::vec2* uv = nullptr;      ///< per vertex
+    TextureView view;
+    const glm::vec2* uv = nullptr;  ///< per vertex
 };
 
 /// One instance with its material. Pointers are to the scene or to the ShadingScene.
@@ -82,8 +76,6 @@ private:
     std::vector<std::vector<glm::vec3>> normals_;
     std::vector<std::vector<glm::vec4>> tangents_;
     std::vector<std::vector<glm::uvec3>> mirrored_triangles_;
-    DecodeTable decode_srgb_{};
-    DecodeTable decode_linear_{};
 };
 
 /// Whether the instance turns its mesh inside out, which reverses the corner order of front faces.

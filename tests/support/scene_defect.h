@@ -25,9 +25,8 @@ inline std::string scene_defect(const Scene& scene) {
 
     if (scene.materials.empty()) return "no materials";
     for (const TextureImage& image : scene.images)
-        if (image.width_px < 1 || image.height_px < 1 ||
-            image.rgba.size() !=
-                4 * static_cast<std::size_t>(image.width_px) * static_cast<std::size_t>(image.height_px))
+        if (image.width_px < 1 || image.height_px < 1 || image.channels < 1 || image.channels > 4 ||
+            image.texels.size() != image.texel_count() * image.texel_bytes())
             return "image of the wrong size: " + image.name;
     const auto uses = [](const Material& m) {
         return std::array{m.base_color_texture, m.metallic_roughness_texture, m.normal_texture, m.emissive_texture};

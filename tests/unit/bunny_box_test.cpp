@@ -43,7 +43,7 @@ TEST(BunnyBox, IsAWholeScene) {
         if (material.base_color_texture.present()) images.insert(material.base_color_texture.image);
     EXPECT_EQ(images.size(), scene.images.size()) << "no image is unused";
     std::size_t texture_bytes = 0;
-    for (const TextureImage& image : scene.images) texture_bytes += image.rgba.size();
+    for (const TextureImage& image : scene.images) texture_bytes += image.texels.size();
     EXPECT_LT(texture_bytes, 64U << 20U);
     EXPECT_GE(scene.lights.size(), 2U);
 }
