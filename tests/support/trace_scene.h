@@ -45,7 +45,7 @@ inline Mesh wall(const glm::vec3& centre, float half) {
 
 /// Adds an RGBA8 image; returns its index.
 inline int add_image(Scene& scene, int width_px, int height_px, std::vector<std::uint8_t> rgba, bool srgb = false) {
-    scene.images.push_back({"test image", width_px, height_px, srgb, std::move(rgba)});
+    scene.images.push_back({"test image", width_px, height_px, 4, TexelType::u8, srgb, std::move(rgba)});
     return static_cast<int>(scene.images.size()) - 1;
 }
 
