@@ -7,6 +7,7 @@
 
 #include "scenes/bunny_box.h"
 #include "scenes/gltf.h"
+#include "scenes/image_file.h"
 
 namespace macula {
 namespace {
@@ -34,13 +35,29 @@ Expected<void> start_from(Scene& scene, const std::string& camera) {
                                        (known.empty() ? "none" : known));
 }
 
+/// The picture takes the place of what the scene had for light from all around.
+Expected<void> light_with(Scene& scene, const std::string& environment) {
+    Expected<TextureImage> image = load_environment(environment);
+    if (!image) return tl::unexpected(image.error());
+    scene.environment = {};
+    scene.environment.image = static_cast<int>(scene.images.size());
+    scene.images.push_back(*std::move(image));
+    scene.ambient_radiance = glm::vec3(0.0F);
+    return {};
+}
+
 }  // namespace
 
 Expected<LoadedScene> load_scene(const std::string& name_or_path, const LoadOptions& options) {
     Expected<LoadedScene> loaded = load_as_it_is(name_or_path, options.progress);
-    if (!loaded || options.camera.empty()) return loaded;
+    if (!loaded || (options.camera.empty() && options.environment.empty())) return loaded;
     Scene scene = *loaded->scene;
-    if (auto started = start_from(scene, options.camera); !started) return tl::unexpected(started.error());
+    if (!options.camera.empty()) {
+        if (auto started = start_from(scene, options.camera); !started) return tl::unexpected(started.error());
+    }
+    if (!options.environment.empty()) {
+        if (auto lit = light_with(scene, options.environment); !lit) return tl::unexpected(lit.error());
+    }
     loaded->scene = std::make_shared<const Scene>(std::move(scene));
     return loaded;
 }

@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 #include <limits>
 #include <map>
 #include <utility>
 
-#include <glm/gtc/packing.hpp>
+#include "scenes/texel.h"
 
 namespace macula {
 namespace {
@@ -37,30 +36,12 @@ constexpr std::array<NeedText, kNeedCount> kTexts = {{
     {"animation", "nothing moves"},
 }};
 
-/// A stored value as the number that it stands for.
-float stored_value(const TextureImage& image, std::size_t index) {
-    const std::uint8_t* bytes = image.texels.data() + index * byte_count(image.type);
-    if (image.type == TexelType::u8) return static_cast<float>(*bytes) / 255.0F;
-    if (image.type == TexelType::f32) {
-        float value = 0.0F;
-        std::memcpy(&value, bytes, sizeof(value));
-        return value;
-    }
-    std::uint16_t code = 0;
-    std::memcpy(&code, bytes, sizeof(code));
-    return image.type == TexelType::u16 ? static_cast<float>(code) / 65535.0F : glm::unpackHalf1x16(code);
-}
-
 /// Least and largest stored value of a channel, 0 to 3 for red, green, blue, alpha.
 std::pair<float, float> channel_range(const TextureImage& image, int channel) {
-    const bool has_alpha = image.channels % 2 == 0;
-    if (channel == 3 && !has_alpha) return {1.0F, 1.0F};
-    const int stored = channel == 3 ? image.channels - 1 : (image.channels < 3 ? 0 : channel);
     float low = std::numeric_limits<float>::infinity();
     float high = 0.0F;
     for (std::size_t i = 0; i < image.texel_count(); ++i) {
-        const float value =
-            stored_value(image, i * static_cast<std::size_t>(image.channels) + static_cast<std::size_t>(stored));
+        const float value = stored_texel(image, i)[channel];
         low = std::min(low, value);
         high = std::max(high, value);
     }
@@ -238,6 +219,15 @@ std::string explain(const SceneNeeds& needs) {
         text += line + ((needs.needs >> bit & 1U) != 0 ? "yes  " : "no   ") + needs.reason[bit] + "\n";
     }
     return text;
+}
+
+std::string summary(const SceneNeeds& needs) {
+    std::string text;
+    for (std::size_t bit = 0; bit < kNeedCount; ++bit) {
+        if ((needs.needs >> bit & 1U) == 0) continue;
+        text.append(text.empty() ? "" : ", ").append(kTexts[bit].name);
+    }
+    return text.empty() ? "nothing" : text;
 }
 
 }  // namespace macula

@@ -80,4 +80,7 @@ SceneNeeds scene_needs(const Scene& scene);
 /// One line per need: its name, yes or no, and the reason.
 std::string explain(const SceneNeeds& needs);
 
+/// Names of what is needed, on one line; "nothing".
+std::string summary(const SceneNeeds& needs);
+
 }  // namespace macula

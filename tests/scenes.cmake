@@ -7,6 +7,7 @@ macula_test(gltf_test
     LINK macula_test_gltf
     LABELS fast)
 macula_test(animation_test SOURCES unit/animation_test.cpp LINK macula_scenes LABELS fast)
+macula_test(needs_test SOURCES unit/needs_test.cpp LINK macula_scenes LABELS fast)
 macula_test(bunny_box_test
     SOURCES unit/bunny_box_test.cpp property/mesh_attributes_test.cpp
     LINK macula_scenes
