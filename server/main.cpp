@@ -4,8 +4,10 @@
 #include <csignal>
 #include <filesystem>
 #include <future>
+#include <iostream>
 #include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include <oneapi/tbb/global_control.h>
@@ -19,6 +21,7 @@
 #include "protocol/codec/depth_codec.h"
 #include "protocol/transport/tls.h"
 #include "scenes/load.h"
+#include "scenes/needs.h"
 #include "server/options.h"
 #include "server/render/reconstructor_factory.h"
 #include "server/render/tracer.h"
@@ -61,10 +64,20 @@ Expected<Identity> load_identity(const std::string& state_option, const Logger& 
     return identity;
 }
 
-Expected<std::shared_ptr<const Scene>> load(const std::string& name, const Logger& logger) {
-    logger->info("loading scene {}", name);
+/// Logs how far a slow load is, about every second.
+LoadProgress log_progress(const Logger& logger) {
+    return [logger, next = std::chrono::steady_clock::now() + std::chrono::seconds(1)](const std::string& stage,
+                                                                                       double share) mutable {
+        if (std::chrono::steady_clock::now() < next) return;
+        next = std::chrono::steady_clock::now() + std::chrono::seconds(1);
+        logger->info("loading: {:.0f} %, {}", 100.0 * share, stage);
+    };
+}
+
+Expected<std::shared_ptr<const Scene>> load(const SceneOptions& options, const Logger& logger) {
+    logger->info("loading scene {}", options.scene);
     const auto start = std::chrono::steady_clock::now();
-    auto loaded = load_scene(name);
+    auto loaded = load_scene(options, log_progress(logger));
     if (!loaded) return tl::unexpected(loaded.error());
     for (const std::string& warning : loaded->warnings) logger->warn("scene: {}", warning);
     const Scene& scene = *loaded->scene;
@@ -75,12 +88,14 @@ Expected<std::shared_ptr<const Scene>> load(const std::string& name, const Logge
         "loaded in {:.2f} s",
         scene.name, scene.triangle_count(), scene.instances.size(), scene.meshes.size(), scene.materials.size(),
         scene.images.size(), 1e-6 * static_cast<double>(texture_bytes), scene.lights.size(), seconds_since(start));
+    logger->info("the scene needs: {} (--explain-scene says why)", summary(scene_needs(scene)));
     return loaded->scene;
 }
 
-Expected<std::shared_ptr<const Tracer>> make_tracer(std::shared_ptr<const Scene> scene, const Logger& logger) {
+Expected<std::shared_ptr<const Tracer>> make_tracer(std::shared_ptr<const Scene> scene, const TracerOptions& options,
+                                                    const Logger& logger) {
     const auto start = std::chrono::steady_clock::now();
-    auto tracer = make_embree_tracer(std::move(scene));
+    auto tracer = make_embree_tracer(std::move(scene), options);
     if (!tracer) return tl::unexpected(tracer.error());
     logger->info("tracer: {}, ready in {:.2f} s", (*tracer)->name(), seconds_since(start));
     return std::shared_ptr<const Tracer>(*std::move(tracer));
@@ -117,7 +132,17 @@ Expected<void> serve(Server& server) {
     return outcome.get();
 }
 
+/// Prints what the scene needs, and why, on standard output.
+Expected<void> explain_scene(const SceneOptions& options, const Logger& logger) {
+    const auto loaded = load_scene(options, log_progress(logger));
+    if (!loaded) return tl::unexpected(loaded.error());
+    for (const std::string& warning : loaded->warnings) logger->warn("scene: {}", warning);
+    std::cout << explain(scene_needs(*loaded->scene)) << std::flush;
+    return {};
+}
+
 Expected<void> run(const Options& options, const Logger& logger) {
+    if (options.scene.explain) return explain_scene(options.scene, logger);
     // What can be wrong is looked at before the scene is loaded, which may take a while.
     const auto endpoint = parse_endpoint(options.listen);
     if (!endpoint) return tl::unexpected(endpoint.error());
@@ -138,7 +163,7 @@ Expected<void> run(const Options& options, const Logger& logger) {
 
     const auto scene = load(options.scene, logger);
     if (!scene) return tl::unexpected(scene.error());
-    const auto tracer = make_tracer(*scene, logger);
+    const auto tracer = make_tracer(*scene, options.scene.tracer, logger);
     if (!tracer) return tl::unexpected(tracer.error());
     const auto tables = std::make_shared<const TileTables>(make_rank_tile());
     const auto reconstructors = make_reconstructors(options, tables, logger);
@@ -179,6 +204,6 @@ int main(int argc, char** argv) {
         logger->critical("{}", outcome.error().message);
         return static_cast<int>(outcome.error().code);
     }
-    logger->info("stopped");
+    if (!options.scene.explain) logger->info("stopped");
     return 0;
 }

@@ -5,12 +5,13 @@
 #include <variant>
 
 #include "protocol/base/error.h"
+#include "server/scene_options.h"
 
 namespace macula {
 
 /// What macula-server is started with: defaults, then the configuration file, then the command line.
 struct Options {
-    std::string scene = "bunny-box";
+    SceneOptions scene;
     std::string listen = "*:7470";
     std::string sampling = "27";
     std::string context = "auto";
