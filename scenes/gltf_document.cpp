@@ -17,8 +17,10 @@ namespace {
 /// tinygltf turns `extras` into values recursively; deeper JSON would exhaust its stack.
 constexpr int kMaxJsonDepth = 128;
 
-constexpr std::array<std::string_view, 4> kSupportedExtensions = {"KHR_lights_punctual", "KHR_texture_transform",
-                                                                  "KHR_materials_unlit", "KHR_mesh_quantization"};
+constexpr std::array<std::string_view, 12> kSupportedExtensions = {
+    "EXT_texture_webp",    "KHR_lights_punctual",  "KHR_materials_clearcoat", "KHR_materials_emissive_strength",
+    "KHR_materials_ior",   "KHR_materials_sheen",  "KHR_materials_specular",  "KHR_materials_transmission",
+    "KHR_materials_unlit", "KHR_materials_volume", "KHR_mesh_quantization",   "KHR_texture_transform"};
 
 int json_depth(std::string_view json) {
     int depth = 0;

@@ -1,6 +1,5 @@
 #include "scenes/gltf_mesh.h"
 
-#include <array>
 #include <cmath>
 #include <numeric>
 #include <utility>
@@ -9,6 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "scenes/gltf_accessor.h"
+#include "scenes/material_textures.h"
 #include "scenes/mesh_attributes.h"
 
 namespace macula {
@@ -116,9 +116,7 @@ Expected<std::vector<glm::vec2>> read_uv(GltfContext& context, const tinygltf::P
 }
 
 bool uses_uv_set(const Material& material, int set) {
-    const std::array<const TextureUse*, 4> uses = {&material.base_color_texture, &material.metallic_roughness_texture,
-                                                   &material.normal_texture, &material.emissive_texture};
-    for (const TextureUse* use : uses)
+    for (const TextureUse* use : texture_uses(material))
         if (use->present() && use->uv_set == set) return true;
     return false;
 }
@@ -204,13 +202,15 @@ Expected<std::optional<Mesh>> read_gltf_primitive(GltfContext& context, const ti
     }
     const bool flat = mesh.normal.empty();
     if (flat) add_flat_normals(mesh);
-    if (material.normal_texture.present()) {
+    const TextureUse& normal_map =
+        material.normal_texture.present() ? material.normal_texture : material.clearcoat_normal_texture;
+    if (normal_map.present()) {
         // glTF 2.0, 3.7.2.1: without normals the file's tangents do not count.
         Expected<std::vector<glm::vec4>> tangents = std::vector<glm::vec4>();
         if (!flat) tangents = read_tangents(context, primitive, element, vertices);
         if (!tangents) return tl::unexpected(tangents.error());
         mesh.tangent = std::move(*tangents);
-        if (mesh.tangent.empty()) make_tangents(material.normal_texture, mesh);
+        if (mesh.tangent.empty()) make_tangents(normal_map, mesh);
     }
     if (mesh.triangle.empty()) return std::nullopt;
     return mesh;

@@ -2,7 +2,8 @@ add_library(macula_test_gltf STATIC support/encoded_image.cpp)
 target_link_libraries(macula_test_gltf PUBLIC macula_scenes nlohmann_json::nlohmann_json PRIVATE PkgConfig::OIIO)
 
 macula_test(gltf_test
-    SOURCES unit/gltf_mesh_test.cpp unit/gltf_scene_test.cpp unit/gltf_material_test.cpp unit/gltf_refusal_test.cpp
+    SOURCES unit/gltf_mesh_test.cpp unit/gltf_scene_test.cpp unit/gltf_material_test.cpp
+        unit/gltf_material_extension_test.cpp unit/gltf_refusal_test.cpp
         unit/gltf_balloon_test.cpp property/gltf_accessor_test.cpp
     LINK macula_test_gltf
     LABELS fast)

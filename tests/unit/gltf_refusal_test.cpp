@@ -179,7 +179,7 @@ const std::vector<Refusal>& refusals() {
              b.json["textures"] = {nlohmann::json::object()};
              b.material()["emissiveTexture"] = {{"index", 0}};
          },
-         "texture 0: has no PNG or JPEG"},
+         "texture 0: has no PNG, JPEG or WebP"},
         {"sampler out of range",
          [](auto& b) {
              use_texture(b, encode_image("png", 1, 1, 3, {1, 2, 3}));

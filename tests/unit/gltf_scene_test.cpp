@@ -183,14 +183,14 @@ TEST(GltfScene, ARoomIsEntered) {
 
 TEST(GltfScene, IgnoredPartsAreNamedOnce) {
     GltfBuilder b = GltfBuilder::triangle();
-    b.json["extensionsUsed"] = {"KHR_materials_ior", "EXT_whatever"};
+    b.json["extensionsUsed"] = {"KHR_materials_iridescence", "EXT_whatever"};
     b.json["skins"] = {{{"joints", {0}}}, {{"joints", {0}}}};
     b.primitive()["targets"] = {{{"POSITION", 0}}};
     const Expected<LoadedScene> loaded = load_valid(b);
     ASSERT_TRUE(loaded) << loaded.error().message;
     ASSERT_EQ(loaded->warnings.size(), 4U);
     EXPECT_NE(loaded->warnings[0].find("EXT_whatever"), std::string::npos);
-    EXPECT_NE(loaded->warnings[1].find("KHR_materials_ior"), std::string::npos);
+    EXPECT_NE(loaded->warnings[1].find("KHR_materials_iridescence"), std::string::npos);
     EXPECT_NE(loaded->warnings[2].find("skins"), std::string::npos);
     EXPECT_NE(loaded->warnings[3].find("morph targets"), std::string::npos);
 }
