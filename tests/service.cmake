@@ -1,5 +1,6 @@
 macula_test(service_parts_test
     SOURCES unit/prediction_test.cpp unit/pacing_test.cpp unit/session_statistics_test.cpp unit/handshake_test.cpp
+            unit/scene_clock_test.cpp unit/motion_finder_test.cpp unit/frame_maker_test.cpp
     LINK macula_service
     LABELS fast threads)
 macula_test(session_test
@@ -28,6 +29,6 @@ target_compile_definitions(end_to_end_test PRIVATE
 add_dependencies(end_to_end_test macula-server macula-client)
 macula_test(server_options_test
     SOURCES unit/server_options_test.cpp ${PROJECT_SOURCE_DIR}/server/options.cpp
-    LINK macula_base CLI11::CLI11
+    LINK macula_scene_options CLI11::CLI11
     LABELS fast)
 target_compile_definitions(server_options_test PRIVATE MACULA_VERSION="${PROJECT_VERSION}")

@@ -20,8 +20,10 @@ void resize(Image<T>& image, int width_px, int height_px) {
 
 }  // namespace
 
-FrameMaker::FrameMaker(Display display, const Pose& world_from_start, float near_m, Parts parts)
-    : display_(std::move(display)), world_from_start_(world_from_start), near_m_(near_m), parts_(std::move(parts)) {}
+FrameMaker::FrameMaker(Display display, Parts parts)
+    : display_(std::move(display)), parts_(std::move(parts)), clock_(parts_.scene_start_ns), motion_(parts_.scene) {
+    for (Samples& samples : samples_) samples.keep_image_depth = parts_.image_depth;
+}
 
 Expected<void> FrameMaker::make(const Track& track, std::int64_t track_received_ns, Picture& picture) {
     Frame& frame = picture.frame;
@@ -30,12 +32,12 @@ Expected<void> FrameMaker::make(const Track& track, std::int64_t track_received_
     frame.pose_time_ns = track.pose_time_ns;
     frame.gaze_time_ns = track.gaze_time_ns;
     frame.display_time_ns = track.display_time_ns;
-    frame.near_m = near_m_;
+    frame.near_m = parts_.scene->near_m;
     frame.times.track_received_ns = track_received_ns;
     frame.times.begin_ns = now_ns();
 
     const glm::ivec2 phase_px = phase_of_frame(frame_index_++);
-    const PerEye<EyeView> views = eye_views(display_, world_from_start_ * predict_head(track));
+    const PerEye<EyeView> views = eye_views(display_, parts_.scene->world_from_start * predict_head(track));
     std::array<TraceTask, kEyeCount> tasks;
     for (std::size_t eye = 0; eye < kEyeCount; ++eye) {
         const glm::vec3 gaze_head = gaze_[eye].update(track.gaze[eye], track.gaze_time_ns);
@@ -49,9 +51,17 @@ Expected<void> FrameMaker::make(const Track& track, std::int64_t track_received_
     }
     frame.times.plan_ns = now_ns();
 
-    parts_.tracer->trace(tasks);
+    const double time_s = clock_.display_time_s(track, track_received_ns);
+    parts_.tracer->trace(tasks, time_s);
     frame.times.trace_ns = now_ns();
 
+    if (auto done = reconstruct(picture); !done) return done;
+    if (motion_.anything_moves()) motion_.find(time_s, plans_, samples_, picture.inverse_depth, frame);
+    frame.times.reconstruct_ns = now_ns();
+    return {};
+}
+
+Expected<void> FrameMaker::reconstruct(Picture& picture) {
     const int width_px = display_.eye_width_px;
     resize(picture.color, kEyeCount * width_px, display_.eye_height_px);
     resize(picture.inverse_depth, kEyeCount * width_px, display_.eye_height_px);
@@ -60,9 +70,13 @@ Expected<void> FrameMaker::make(const Track& track, std::int64_t track_received_
         const ReconstructTarget target{
             picture.color.texels.data() + left_px, static_cast<std::size_t>(picture.color.width_px),
             picture.inverse_depth.texels.data() + left_px, static_cast<std::size_t>(picture.inverse_depth.width_px)};
-        if (auto done = parts_.reconstructor->reconstruct(plans_[eye], samples_[eye], target); !done) return done;
+        Samples& samples = samples_[eye];
+        // Reprojection moves what is seen, not the surface that it is seen in.
+        if (parts_.image_depth) samples.inverse_depth_per_m.swap(samples.image_inverse_depth_per_m);
+        const auto done = parts_.reconstructor->reconstruct(plans_[eye], samples, target);
+        if (parts_.image_depth) samples.inverse_depth_per_m.swap(samples.image_inverse_depth_per_m);
+        if (!done) return done;
     }
-    frame.times.reconstruct_ns = now_ns();
     return {};
 }
 

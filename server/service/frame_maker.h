@@ -7,9 +7,12 @@
 #include "masks/sample_plan.h"
 #include "protocol/base/image.h"
 #include "protocol/message/message.h"
+#include "scenes/scene.h"
 #include "server/render/reconstructor.h"
 #include "server/render/tracer.h"
+#include "server/service/motion_finder.h"
 #include "server/service/prediction.h"
+#include "server/service/scene_clock.h"
 
 namespace macula {
 
@@ -24,24 +27,32 @@ struct Picture {
 /// Makes the pictures of one session: predicts, plans, traces, reconstructs. One thread at a time.
 class FrameMaker {
 public:
-    /// What a session renders with. The tracer is shared with other sessions; the rest is its own.
+    /// What a session renders with. The tracer is shared with other sessions; samplers and reconstructor are its own.
     struct Parts {
+        std::shared_ptr<const Scene> scene;  ///< shared with the other sessions, too
+        std::int64_t scene_start_ns = 0;     ///< this machine's time at which its animation began
+        /// Whether the depth of a frame is that of the images in mirrors and behind glass (Samples).
+        bool image_depth = false;
         std::shared_ptr<const Tracer> tracer;
         PerEye<std::unique_ptr<Sampler>> samplers;
         std::unique_ptr<Reconstructor> reconstructor;
     };
 
-    FrameMaker(Display display, const Pose& world_from_start, float near_m, Parts parts);
+    FrameMaker(Display display, Parts parts);
 
-    /// Renders what the Track asks for; `track_received_ns` is this machine's time. `picture` is overwritten, its
-    /// memory reused. Errors: `graphics` if the reconstructor's context is lost.
+    /// Renders what the Track asks for, the scene as it stands when the frame is shown; a scene that moves needs no
+    /// other occasion for a frame, since Tracks come as often as the tracker delivers. `track_received_ns` is this
+    /// machine's time. `picture` is overwritten, its memory reused. Errors: `graphics` if the reconstructor's context
+    /// is lost.
     Expected<void> make(const Track& track, std::int64_t track_received_ns, Picture& picture);
 
 private:
+    Expected<void> reconstruct(Picture& picture);
+
     Display display_;
-    Pose world_from_start_;
-    float near_m_;
     Parts parts_;
+    SceneClock clock_;
+    MotionFinder motion_;
     PerEye<GazeHold> gaze_;
     PerEye<SamplePlan> plans_;
     PerEye<Samples> samples_;

@@ -39,6 +39,9 @@ Expected<Admission> admit(const Hello& hello, const Supplies& supplies) {
     Admission admission;
     const std::string& sampling = hello.sampling.empty() ? supplies.default_sampling : hello.sampling;
     FrameMaker::Parts maker_parts;
+    maker_parts.scene = supplies.scene;
+    maker_parts.scene_start_ns = supplies.scene_start_ns;
+    maker_parts.image_depth = supplies.image_depth;
     maker_parts.tracer = supplies.tracer;
     for (const Eye eye : {kLeftEye, kRightEye}) {
         auto sampler = supplies.make_sampler(display, eye, sampling);
@@ -69,8 +72,7 @@ Expected<Admission> admit(const Hello& hello, const Supplies& supplies) {
     Session::Parts& parts = admission.parts;
     parts.refresh_hz = display.refresh_hz;
     parts.frame_pixels = static_cast<std::uint64_t>(width_px) * static_cast<std::uint64_t>(display.eye_height_px);
-    parts.frame_maker = std::make_unique<FrameMaker>(display, supplies.scene->world_from_start, supplies.scene->near_m,
-                                                     std::move(maker_parts));
+    parts.frame_maker = std::make_unique<FrameMaker>(display, std::move(maker_parts));
     parts.color_encoder = *std::move(color_encoder);
     parts.depth_encoder = *std::move(depth_encoder);
     return admission;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
@@ -7,6 +8,7 @@
 #include "masks/display.h"
 #include "masks/rank_tile.h"
 #include "masks/sample_plan.h"
+#include "protocol/base/clock.h"
 #include "protocol/base/error.h"
 #include "protocol/codec/codec.h"
 #include "protocol/codec/depth_codec.h"
@@ -21,6 +23,11 @@ namespace macula {
 struct Supplies {
     std::shared_ptr<const Scene> scene;
     std::shared_ptr<const Tracer> tracer;
+    /// This machine's time at which the scene's animation began, for all sessions.
+    std::int64_t scene_start_ns = now_ns();
+    /// Whether the scene shows images in mirrors or behind glass (scenes/needs.h), so that the depth of frames is
+    /// theirs.
+    bool image_depth = false;
     std::shared_ptr<const RankTile> rank_tile;
     std::string renderer;          ///< tracer and reconstruction, for the client's log
     std::string codec = "h264";    ///< protocol name of what make_color_encoder codes ("h264")

@@ -56,6 +56,7 @@ public:
         return {};
     }
     [[nodiscard]] std::string name() const override { return "fake"; }
+    [[nodiscard]] std::size_t memory_bytes() const override { return 0; }
 
     mutable std::atomic<int> calls{0};
     mutable std::atomic<int> tasks_per_call{0};

@@ -42,7 +42,12 @@ protected:
         auto [server_end, client_end] = testing::MemoryChannel::pair(channel_capacity);
         server_end_ = std::move(server_end);
         client_ = std::move(client_end);
+        Scene scene;
+        scene.world_from_start.position_m = {0.0F, 1.6F, 0.0F};
+        scene.near_m = 0.25F;
         FrameMaker::Parts maker_parts;
+        maker_parts.scene = std::make_shared<const Scene>(std::move(scene));
+        maker_parts.scene_start_ns = scene_start_ns_;
         maker_parts.tracer = tracer_;
         for (auto& sampler : maker_parts.samplers)
             sampler = std::make_unique<testing::FakeSampler>(kWidth_px, kHeight_px);
@@ -50,9 +55,7 @@ protected:
         reconstructor_ = reconstructor.get();
         maker_parts.reconstructor = std::move(reconstructor);
         Session::Parts parts;
-        parts.frame_maker =
-            std::make_unique<FrameMaker>(small_display(), Pose{glm::quat(1.0F, 0.0F, 0.0F, 0.0F), {0.0F, 1.6F, 0.0F}},
-                                         0.25F, std::move(maker_parts));
+        parts.frame_maker = std::make_unique<FrameMaker>(small_display(), std::move(maker_parts));
         parts.color_encoder = std::make_unique<testing::FakeVideoEncoder>();
         parts.depth_encoder = std::make_unique<testing::FakeDepthEncoder>();
         parts.refresh_hz = 1000.0;
@@ -101,6 +104,7 @@ protected:
         return outcome_.get();
     }
 
+    const std::int64_t scene_start_ns_ = now_ns() - 5'000'000'000;
     std::shared_ptr<FakeTracer> tracer_ = std::make_shared<FakeTracer>();
     FakeReconstructor* reconstructor_ = nullptr;
     std::unique_ptr<Channel> server_end_;
@@ -145,6 +149,10 @@ TEST_F(SessionTest, FrameCarriesEverythingThatMadeIt) {
     EXPECT_EQ(frame->color, (std::vector<std::uint8_t>{1, 2}));  // the left eye is on the left
     EXPECT_EQ(frame->depth, std::vector<std::uint8_t>{7});
     const StageTimes& times = frame->times;
+    // The first Track's delay cannot be known: it counts as none, and the frame is shown 40 ms after the pose.
+    EXPECT_NEAR(tracer_->last_time_s, 1e-9 * static_cast<double>(times.track_received_ns - scene_start_ns_) + 0.040,
+                1e-9);
+    EXPECT_TRUE(frame->moving.empty());
     EXPECT_LE(before_ns, times.track_received_ns);
     EXPECT_LE(times.track_received_ns, times.begin_ns);
     EXPECT_LE(times.begin_ns, times.plan_ns);
