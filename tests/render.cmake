@@ -16,8 +16,8 @@ macula_test(tracer_test
 macula_test(kernels_gl_test SOURCES differential/kernels_gl_test.cpp LINK macula_kernels macula_gl LABELS gl)
 macula_kernel_text(kernels_gl_test
     server/kernels/area_light.h server/kernels/brdf.h server/kernels/camera.h server/kernels/color.h
-    server/kernels/fresnel.h server/kernels/light.h server/kernels/microfacet.h server/kernels/shade.h
-    server/kernels/texture.h
+    server/kernels/fresnel.h server/kernels/layers.h server/kernels/light.h server/kernels/microfacet.h
+    server/kernels/powers.h server/kernels/shade.h server/kernels/sheen.h server/kernels/texture.h
     tests/differential/kernel_cases.h tests/differential/kernel_cases_main.glsl)
 
 macula_test(tracer_golden_test

@@ -74,22 +74,52 @@ KERNEL Surface make_surface(vec3 base_color, float metallic, float roughness, fl
     return make_surface(base_color, metallic, roughness, vec3(kDielectricF0), 1.0F, 1.0F, n_dot_v);
 }
 
+/// Angles of one light at a surface.
+struct Bounce {
+    float n_dot_l;       ///< 0 where the light is behind
+    float n_dot_v;       ///< at least 1e-4: a view that a bent normal turns away counts as grazing
+    float n_dot_h;       ///< to the half vector
+    float n_cross_h_sq;  ///< squared sine to the half vector
+    float v_dot_h;
+};
+
+KERNEL Bounce bounce_angles(vec3 normal, vec3 view, vec3 light) {
+    vec3 sum = light + view;
+    vec3 h = sum * (1.0F / sqrt(max(dot(sum, sum), 1.0e-12F)));
+    vec3 n_cross_h = cross(normal, h);
+    Bounce result;
+    result.n_dot_l = max(dot(normal, light), 0.0F);
+    result.n_dot_v = max(dot(normal, view), 1.0e-4F);
+    result.n_dot_h = max(dot(normal, h), 0.0F);
+    result.n_cross_h_sq = dot(n_cross_h, n_cross_h);
+    result.v_dot_h = dot(view, h);
+    return result;
+}
+
+/// GGX lobe of single scattering with a Fresnel term of one, 1/sr.
+KERNEL float ggx_lobe(Bounce b, float alpha) {
+    return ggx_distribution(b.n_dot_h, b.n_cross_h_sq, alpha) *
+           smith_visibility(max(b.n_dot_l, 1.0e-4F), b.n_dot_v, alpha);
+}
+
+/// Both lobes of the microfacets, 1/sr; `lit` are the surface's albedos at n.l.
+KERNEL vec3 specular_lobes(KERNEL_IN(Surface) surface, Bounce b, Albedos lit) {
+    vec3 f = surface.f0 + (vec3(surface.f90) - surface.f0) * schlick_weight(b.v_dot_h);
+    return f * ggx_lobe(b, surface.curves.alpha) + surface.scatter * lit.loss;
+}
+
+/// Share of light that enters the base from the direction that `lit` is for.
+KERNEL float base_entry(KERNEL_IN(Surface) surface, Albedos lit) {
+    return surface.entry.x - surface.entry.y * lit.grazing - surface.entry.z * lit.loss;
+}
+
 /// Reflectance distribution times n.l, 1/sr: radiance towards `view`, for which the surface was made, per irradiance
 /// that `light` brings to a surface that faces it. All vectors are unit and point away from the surface; 0 where
 /// n.l <= 0.
 KERNEL vec3 reflect_light(KERNEL_IN(Surface) surface, vec3 normal, vec3 view, vec3 light) {
-    float n_dot_l = max(dot(normal, light), 0.0F);
-    float n_dot_v = max(dot(normal, view), 1.0e-4F);
-    vec3 sum = light + view;
-    vec3 h = sum * (1.0F / sqrt(max(dot(sum, sum), 1.0e-12F)));
-    vec3 n_cross_h = cross(normal, h);
-    float alpha = surface.curves.alpha;
-    float d = ggx_distribution(max(dot(normal, h), 0.0F), dot(n_cross_h, n_cross_h), alpha);
-    float v = smith_visibility(max(n_dot_l, 1.0e-4F), n_dot_v, alpha);
-    vec3 f = surface.f0 + (vec3(surface.f90) - surface.f0) * schlick_weight(dot(view, h));
-    Albedos lit = albedos_at(surface.curves, n_dot_l);
-    float entry = surface.entry.x - surface.entry.y * lit.grazing - surface.entry.z * lit.loss;
-    return (f * (v * d) + surface.scatter * lit.loss + surface.base * entry) * n_dot_l;
+    Bounce b = bounce_angles(normal, view, light);
+    Albedos lit = albedos_at(surface.curves, b.n_dot_l);
+    return (specular_lobes(surface, b, lit) + surface.base * base_entry(surface, lit)) * b.n_dot_l;
 }
 
 /// Share of uniform light from everywhere that the surface sends to the viewer.

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "server/kernels/brdf.h"
+#include "server/kernels/layers.h"
 #include "server/kernels/light.h"
 
 KERNEL_BEGIN
@@ -44,6 +44,13 @@ KERNEL vec3 leave_surface(vec3 position, vec3 geometric_normal, float path) {
 /// it.
 KERNEL vec3 shade_light(KERNEL_IN(Surface) surface, vec3 geometric_normal, vec3 normal, vec3 view, LightSample light) {
     vec3 reflected = reflect_light(surface, normal, view, light.direction) * light.irradiance;
+    return dot(geometric_normal, light.direction) > 0.0F ? reflected : vec3(0.0F);
+}
+
+/// The same of a surface under layers.
+KERNEL vec3 shade_light(KERNEL_IN(Surface) surface, KERNEL_IN(Layers) layers, vec3 geometric_normal, vec3 normal,
+                        vec3 coat_normal, vec3 view, LightSample light) {
+    vec3 reflected = reflect_light(surface, layers, normal, coat_normal, view, light.direction) * light.irradiance;
     return dot(geometric_normal, light.direction) > 0.0F ? reflected : vec3(0.0F);
 }
 

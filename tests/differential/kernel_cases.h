@@ -25,6 +25,7 @@ struct KernelResult {
     vec4 light;    ///< irradiance; distance to the light
     vec4 shading;  ///< radiance that the light causes; its green in uniform light
     vec4 surface;  ///< radiance that one point of it causes by a prepared surface; its green in uniform light
+    vec4 layered;  ///< the same under coat and sheen
     vec4 soft;     ///< of one point of the light: irradiance, distance
     vec4 rect;     ///< of one point of a rectangle: irradiance, distance
     vec4 refract;  ///< direction behind an interface, and its reflectance
@@ -86,6 +87,12 @@ KERNEL KernelResult run_case(KernelCase k) {
                                     k.a.z, dot(normal, view));
     radiance = shade_light(prepared, normal, normal, view, soft);
     result.surface = vec4(radiance.x, radiance.y, radiance.z, reflect_uniform_light(prepared).y);
+
+    vec3 coat_normal = safe_normalize(normal + random_direction(k.d.x, k.e.y) * 0.1F);
+    Layers layers = make_layers(prepared, dot(normal, view), k.d.x, k.d.y, dot(coat_normal, view),
+                                vec3(k.d.z, k.d.w, k.e.x), k.e.y);
+    radiance = shade_light(prepared, layers, normal, normal, coat_normal, view, soft);
+    result.layered = vec4(radiance.x, radiance.y, radiance.z, layers.albedo.y);
 
     RectangleLight lamp;
     lamp.center = towards * 2.0F;

@@ -15,9 +15,12 @@
 #include "kernel_text/fresnel.h"
 #include "kernel_text/kernel_cases.h"
 #include "kernel_text/kernel_cases_main.h"
+#include "kernel_text/layers.h"
 #include "kernel_text/light.h"
 #include "kernel_text/microfacet.h"
+#include "kernel_text/powers.h"
 #include "kernel_text/shade.h"
+#include "kernel_text/sheen.h"
 #include "kernel_text/texture.h"
 #include "protocol/gl/buffer.h"
 #include "tests/differential/kernel_cases.h"
@@ -59,8 +62,9 @@ TEST_P(KernelsOnGl, AgreeWithCpp) {
     const auto current = CurrentContext::enter(**context);
     ASSERT_TRUE(current) << current.error().message;
     const auto program = ComputeProgram::build(
-        **context, std::array{camera_text, color_text, fresnel_text, microfacet_text, brdf_text, light_text,
-                              area_light_text, shade_text, texture_text, kernel_cases_text, kernel_cases_main_text});
+        **context, std::array{camera_text, color_text, fresnel_text, microfacet_text, brdf_text, powers_text,
+                              sheen_text, layers_text, light_text, area_light_text, shade_text, texture_text,
+                              kernel_cases_text, kernel_cases_main_text});
     ASSERT_TRUE(program) << program.error().message;
     constexpr std::uint32_t kSeed = 1;
     SCOPED_TRACE("seed " + std::to_string(kSeed));
@@ -82,6 +86,7 @@ TEST_P(KernelsOnGl, AgreeWithCpp) {
             worst.light.x = std::max(worst.light.x, difference(cpp.light, results[i].light));
             worst.shading.x = std::max(worst.shading.x, difference(cpp.shading, results[i].shading));
             worst.surface.x = std::max(worst.surface.x, difference(cpp.surface, results[i].surface));
+            worst.layered.x = std::max(worst.layered.x, difference(cpp.layered, results[i].layered));
             worst.soft.x = std::max(worst.soft.x, difference(cpp.soft, results[i].soft));
             worst.rect.x = std::max(worst.rect.x, difference(cpp.rect, results[i].rect));
             worst.refract.x = std::max(worst.refract.x, difference(cpp.refract, results[i].refract));
@@ -95,6 +100,7 @@ TEST_P(KernelsOnGl, AgreeWithCpp) {
         EXPECT_LT(worst.light.x, 1e-4F);
         EXPECT_LT(worst.shading.x, 1e-3F);
         EXPECT_LT(worst.surface.x, 1e-3F);
+        EXPECT_LT(worst.layered.x, 1e-3F);
         EXPECT_LT(worst.soft.x, 1e-3F);
         EXPECT_LT(worst.rect.x, 1e-3F);
         EXPECT_LT(worst.refract.x, 1e-3F);
@@ -105,8 +111,8 @@ TEST_P(KernelsOnGl, AgreeWithCpp) {
         EXPECT_EQ(worst.display.w, 0.0F);
         std::printf("worst relative differences: ray %.1e light %.1e shading %.1e normal %.1e texel %.1e\n",
                     worst.ray.x, worst.light.x, worst.shading.x, worst.normal.x, worst.texel.x);
-        std::printf("  surface %.1e soft %.1e rectangle %.1e refraction %.1e\n", worst.surface.x, worst.soft.x,
-                    worst.rect.x, worst.refract.x);
+        std::printf("  surface %.1e layered %.1e soft %.1e rectangle %.1e refraction %.1e\n", worst.surface.x,
+                    worst.layered.x, worst.soft.x, worst.rect.x, worst.refract.x);
     });
     EXPECT_TRUE(read) << read.error().message;
 }
