@@ -3,7 +3,7 @@
 #include "protocol/gl/kernel_language.h"
 
 // Texture lookup in two pure steps, so that each side reads its texels in its own way: where the four texels lie,
-// and how they mix.
+// and how they mix. What a ray's width means for a texture is in texture_footprint.h.
 
 KERNEL_BEGIN
 
@@ -48,21 +48,25 @@ KERNEL vec2 transform_uv(Texture t, vec2 uv) {
                 t.uv_scale_rotation.y * uv.x + t.uv_scale_rotation.w * uv.y + t.uv_offset.y);
 }
 
-/// Texels that the texture reads at untransformed coordinates; (0, 0) is the top left corner of the image.
-KERNEL TexelFootprint texel_footprint(Texture t, vec2 uv) {
-    vec2 transformed = transform_uv(t, uv);
-    float shift = t.nearest == 1 ? 0.0F : 0.5F;
-    float px = wrap_coordinate(transformed.x, t.wrap.x) * float(t.size_px.x) - shift;
-    float py = wrap_coordinate(transformed.y, t.wrap.y) * float(t.size_px.y) - shift;
+/// Texels of a level of `size_px` around transformed coordinates; (0, 0) is the top left corner of the image.
+KERNEL TexelFootprint level_footprint(ivec2 size_px, ivec2 wrap, bool nearest, vec2 transformed) {
+    float shift = nearest ? 0.0F : 0.5F;
+    float px = wrap_coordinate(transformed.x, wrap.x) * float(size_px.x) - shift;
+    float py = wrap_coordinate(transformed.y, wrap.y) * float(size_px.y) - shift;
     float left = floor(px);
     float top = floor(py);
     int x = int(left);
     int y = int(top);
     TexelFootprint footprint;
-    footprint.weight = t.nearest == 1 ? vec2(0.0F) : vec2(px - left, py - top);
-    footprint.x = ivec2(wrap_texel(x, t.size_px.x, t.wrap.x), wrap_texel(x + 1, t.size_px.x, t.wrap.x));
-    footprint.y = ivec2(wrap_texel(y, t.size_px.y, t.wrap.y), wrap_texel(y + 1, t.size_px.y, t.wrap.y));
+    footprint.weight = nearest ? vec2(0.0F) : vec2(px - left, py - top);
+    footprint.x = ivec2(wrap_texel(x, size_px.x, wrap.x), wrap_texel(x + 1, size_px.x, wrap.x));
+    footprint.y = ivec2(wrap_texel(y, size_px.y, wrap.y), wrap_texel(y + 1, size_px.y, wrap.y));
     return footprint;
+}
+
+/// Texels that the texture itself reads at untransformed coordinates.
+KERNEL TexelFootprint texel_footprint(Texture t, vec2 uv) {
+    return level_footprint(t.size_px, t.wrap, t.nearest == 1, transform_uv(t, uv));
 }
 
 /// Mixes the four texels of a footprint; the first index is the column's.

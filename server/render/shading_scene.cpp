@@ -67,13 +67,18 @@ void ShadingScene::add_instance(const Instance& instance) {
     for (glm::vec3& n : normals) n = glm::normalize(normal_matrix * n);
     result.normal = normals.data();
 
-    const auto add_texture = [&](const TextureUse& use, Feature feature, ShadingTexture& destination) {
+    const auto add_texture = [&](const TextureUse& use, Feature feature, ShadingTexture& destination,
+                                 TextureContent content = TextureContent::values, float alpha_cutoff = 0.0F) {
         const auto& uv = use.uv_set == 0 ? mesh.uv0 : mesh.uv1;
         if (!use.present() || uv.empty()) return;
-        destination = texture(use, mesh);
+        destination = texture(use, mesh, content, alpha_cutoff);
         result.features |= feature;
     };
-    add_texture(material.base_color_texture, kBaseColorTexture, result.base_color);
+    const bool covers = material.alpha_mode != AlphaMode::opaque;
+    const bool cuts = material.alpha_mode == AlphaMode::mask && material.base_color.w > 0.0F;
+    add_texture(material.base_color_texture, kBaseColorTexture, result.base_color,
+                covers ? TextureContent::covered_color : TextureContent::values,
+                cuts ? material.alpha_cutoff / material.base_color.w : 0.0F);
     if (!mesh.color.empty()) {
         result.color = mesh.color.data();
         result.features |= kVertexColor;
@@ -83,7 +88,8 @@ void ShadingScene::add_instance(const Instance& instance) {
     } else {
         add_texture(material.metallic_roughness_texture, kMetallicRoughnessTexture, result.metallic_roughness);
         add_texture(material.emissive_texture, kEmissiveTexture, result.emissive);
-        if (!mesh.tangent.empty()) add_texture(material.normal_texture, kNormalTexture, result.normal_map);
+        if (!mesh.tangent.empty())
+            add_texture(material.normal_texture, kNormalTexture, result.normal_map, TextureContent::normals);
     }
     if ((result.features & kNormalTexture) != 0) {
         // The bitangent keeps its side of the mirrored normal and tangent: cross products flip.
@@ -95,14 +101,15 @@ void ShadingScene::add_instance(const Instance& instance) {
     instances_.push_back(result);
 }
 
-ShadingTexture ShadingScene::texture(const TextureUse& use, const Mesh& mesh) const {
-    return {view_texture(use, scene_->images[static_cast<std::size_t>(use.image)]),
-            use.uv_set == 0 ? mesh.uv0.data() : mesh.uv1.data()};
+ShadingTexture ShadingScene::texture(const TextureUse& use, const Mesh& mesh, TextureContent content,
+                                     float alpha_cutoff) {
+    const TextureImage& image = scene_->images[static_cast<std::size_t>(use.image)];
+    return {textures_.view(use, image, content, alpha_cutoff), use.uv_set == 0 ? mesh.uv0.data() : mesh.uv1.data()};
 }
 
 std::size_t ShadingScene::memory_bytes() const {
     return instances_.capacity() * sizeof(ShadingInstance) + bytes_of(normals_) + bytes_of(tangents_) +
-           bytes_of(mirrored_triangles_);
+           bytes_of(mirrored_triangles_) + textures_.memory_bytes();
 }
 
 }  // namespace macula

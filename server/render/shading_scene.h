@@ -66,10 +66,11 @@ public:
     [[nodiscard]] std::size_t memory_bytes() const;
 
 private:
-    [[nodiscard]] ShadingTexture texture(const TextureUse& use, const Mesh& mesh) const;
+    ShadingTexture texture(const TextureUse& use, const Mesh& mesh, TextureContent content, float alpha_cutoff = 0.0F);
     void add_instance(const Instance& instance);
 
     std::shared_ptr<const Scene> scene_;
+    TextureLibrary textures_;
     std::vector<ShadingInstance> instances_;
     std::vector<ShadingLight> lights_;
     // The inner vectors never move once filled.

@@ -1,138 +1,173 @@
 #include "server/render/texture_lookup.h"
 
-#include <array>
-#include <bit>
-#include <cstddef>
-#include <cstring>
+#include <algorithm>
+#include <cmath>
 
-#include "server/kernels/color.h"
+#include <glm/geometric.hpp>
+
+#include "server/render/texel_read.h"
 
 namespace macula {
 namespace {
 
 using glm::vec2;
+using glm::vec3;
 using glm::vec4;
 
-/// Of 256 codes of 8 bits, linear and sRGB, and of the 4097 codes of sRGB that are multiples of 16.
-struct DecodeTables {
-    std::array<float, 256> linear8{};
-    std::array<float, 256> srgb8{};
-    std::array<float, 4097> srgb16{};
-
-    DecodeTables() {
-        for (std::size_t i = 0; i < linear8.size(); ++i) {
-            linear8[i] = static_cast<float>(i) / 255.0F;
-            srgb8[i] = kernels::linear_from_srgb(linear8[i]);
-        }
-        for (std::size_t i = 0; i < srgb16.size(); ++i)
-            srgb16[i] = kernels::linear_from_srgb(static_cast<float>(i * 16) / 65535.0F);
-    }
-};
-
-const float* decode_table(TexelType type, bool srgb) {
-    static const DecodeTables tables;
-    if (type == TexelType::u8) return srgb ? tables.srgb8.data() : tables.linear8.data();
-    return type == TexelType::u16 && srgb ? tables.srgb16.data() : nullptr;
-}
+/// Levels nearer to a whole number than this are read as it: half the work, and a step that does not show.
+constexpr float kSameLevel = 1.0F / 16.0F;
 
 int kernel_wrap(TextureWrap wrap) {
     if (wrap == TextureWrap::clamp_to_edge) return kernels::kWrapClampToEdge;
     return wrap == TextureWrap::mirrored_repeat ? kernels::kWrapMirroredRepeat : kernels::kWrapRepeat;
 }
 
-template <class Value>
-Value load(const std::uint8_t* at, int index) {
-    Value value;
-    std::memcpy(&value, at + static_cast<std::size_t>(index) * sizeof(Value), sizeof(Value));
-    return value;
+/// The four texels of a level around transformed coordinates, mixed.
+template <TexelType type, int channels>
+vec4 read_level(const TextureView& t, const TextureLevel& level, bool nearest, vec2 at) {
+    constexpr std::size_t kBytes = static_cast<std::size_t>(channels) * byte_count(type);
+    const kernels::TexelFootprint f = kernels::level_footprint(level.size_px, t.lookup.wrap, nearest, at);
+    const std::size_t row_bytes = static_cast<std::size_t>(level.size_px.x) * kBytes;
+    const std::uint8_t* upper = level.texels + static_cast<std::size_t>(f.y.x) * row_bytes;
+    const std::uint8_t* lower = level.texels + static_cast<std::size_t>(f.y.y) * row_bytes;
+    const std::size_t left = static_cast<std::size_t>(f.x.x) * kBytes;
+    const std::size_t right = static_cast<std::size_t>(f.x.y) * kBytes;
+    if (nearest) return read_texel<type, channels>(upper + left, t.decode);
+    return kernels::mix_texels(
+        f, read_texel<type, channels>(upper + left, t.decode), read_texel<type, channels>(upper + right, t.decode),
+        read_texel<type, channels>(lower + left, t.decode), read_texel<type, channels>(lower + right, t.decode));
 }
 
-/// Value `index` of a texel, as colour or as alpha, which sRGB does not code.
-template <TexelType type, bool alpha>
-float value(const std::uint8_t* texel, int index, const float* decode) {
-    if constexpr (type == TexelType::u8) {
-        return alpha ? static_cast<float>(texel[index]) * (1.0F / 255.0F) : decode[texel[index]];
-    } else if constexpr (type == TexelType::u16) {
-        const auto code = load<std::uint16_t>(texel, index);
-        if (alpha || decode == nullptr) return static_cast<float>(code) * (1.0F / 65535.0F);
-        // Between 4097 points of sRGB's curve a line is off by 2e-8.
-        const float* entry = decode + (code >> 4U);
-        return entry[0] + (entry[1] - entry[0]) * static_cast<float>(code & 15U) * (1.0F / 16.0F);
-    } else if constexpr (type == TexelType::f16) {
-        // Exact for all finite values: the exponent is moved, then its offset is made up for.
-        const std::uint32_t bits = load<std::uint16_t>(texel, index);
-        const float magnitude = std::bit_cast<float>((bits & 0x7FFFU) << 13U) * 0x1p112F;
-        return (bits & 0x8000U) != 0 ? -magnitude : magnitude;
-    } else {
-        return load<float>(texel, index);
-    }
+/// Two neighbouring levels and how much the second one counts.
+struct LevelPair {
+    int first;
+    float second_weight;  ///< 0: the second one may not exist
+};
+
+LevelPair level_pair(const TextureView& texture, float level) {
+    const float bounded = std::min(level, static_cast<float>(texture.level_count - 1));
+    const int first = static_cast<int>(bounded);
+    const float weight = bounded - static_cast<float>(first);
+    if (weight < kSameLevel) return {first, 0.0F};
+    return weight > 1.0F - kSameLevel ? LevelPair{first + 1, 0.0F} : LevelPair{first, weight};
 }
 
 template <TexelType type, int channels>
-vec4 texel_value(const std::uint8_t* texel, const float* decode) {
-    const float red = value<type, false>(texel, 0, decode);
-    if constexpr (channels == 1) return {red, red, red, 1.0F};
-    if constexpr (channels == 2) return {red, red, red, value<type, true>(texel, 1, decode)};
-    if constexpr (channels >= 3) {
-        const float alpha = channels == 4 ? value<type, true>(texel, 3, decode) : 1.0F;
-        return {red, value<type, false>(texel, 1, decode), value<type, false>(texel, 2, decode), alpha};
+vec4 look_up_as(const TextureView& t, vec2 at, const kernels::TapPlan& plan) {
+    const LevelPair pair = level_pair(t, plan.level);
+    const TextureLevel* level = t.levels + pair.first;
+    vec4 sum(0.0F);
+    at += plan.first;
+    for (int tap = 0; tap < plan.count; ++tap, at += plan.step) {
+        vec4 texel = read_level<type, channels>(t, level[0], false, at);
+        if (pair.second_weight > 0.0F)
+            texel = glm::mix(texel, read_level<type, channels>(t, level[1], false, at), pair.second_weight);
+        sum += texel;
     }
+    return sum * (1.0F / static_cast<float>(plan.count));
 }
 
-template <TexelType type, int channels>
-vec4 mix_four(const TextureView& t, const kernels::TexelFootprint& f) {
-    constexpr std::size_t kBytes = channels * byte_count(type);
-    const std::size_t row = static_cast<std::size_t>(t.lookup.size_px.x) * kBytes;
-    const auto at = [&](int x, int y) {
-        return texel_value<type, channels>(
-            t.texels + static_cast<std::size_t>(y) * row + static_cast<std::size_t>(x) * kBytes, t.decode);
+/// Whether one tap at level 0 is all.
+bool is_magnified(const kernels::TapPlan& plan) {
+    return plan.count == 1 && plan.level <= 0.0F;
+}
+
+vec3 unit_or_up(const vec3& v) {
+    const float length_sq = glm::dot(v, v);
+    return length_sq > 1e-12F ? v * (1.0F / std::sqrt(length_sq)) : vec3(0.0F, 0.0F, 1.0F);
+}
+
+/// A normal and the variance around it, from a level that has both.
+vec4 read_mean_normal(const TextureView& t, const TextureLevel& level, vec2 at) {
+    // The codes are linear, whatever the image's own type is.
+    constexpr std::size_t kBytes = 3;
+    const kernels::TexelFootprint f = kernels::level_footprint(level.size_px, t.lookup.wrap, false, at);
+    const auto texel = [&](int x, int y) {
+        const std::uint8_t* codes =
+            level.texels + kBytes * (static_cast<std::size_t>(y) * static_cast<std::size_t>(level.size_px.x) +
+                                     static_cast<std::size_t>(x));
+        const vec3 unit = vec3(codes[0], codes[1], codes[2]) * (1.0F / 255.0F);
+        const float nx = unit.x * 2.0F - 1.0F;
+        const float ny = unit.y * 2.0F - 1.0F;
+        return vec4(nx, ny, std::sqrt(std::max(1.0F - nx * nx - ny * ny, 0.0F)), unit.z * unit.z);
     };
-    if (t.lookup.nearest == 1) return at(f.x.x, f.y.x);
-    return kernels::mix_texels(f, at(f.x.x, f.y.x), at(f.x.y, f.y.x), at(f.x.x, f.y.y), at(f.x.y, f.y.y));
+    return kernels::mix_texels(f, texel(f.x.x, f.y.x), texel(f.x.y, f.y.x), texel(f.x.x, f.y.y), texel(f.x.y, f.y.y));
 }
 
-template <TexelType type>
-vec4 mix_four(const TextureView& t, const kernels::TexelFootprint& f) {
-    switch (t.channels) {
-        case 1:
-            return mix_four<type, 1>(t, f);
-        case 2:
-            return mix_four<type, 2>(t, f);
-        case 3:
-            return mix_four<type, 3>(t, f);
-        default:
-            return mix_four<type, 4>(t, f);
-    }
+vec4 read_normal(const TextureView& t, int level, vec2 at) {
+    if (level > 0) return read_mean_normal(t, t.levels[level], at);
+    const vec4 texel = with_texel_format(t.type, t.channels, [&]<TexelType type, int channels>() {
+        return read_level<type, channels>(t, t.levels[0], false, at);
+    });
+    return vec4(unit_or_up(vec3(texel) * 2.0F - vec3(1.0F)), 0.0F);
 }
 
 }  // namespace
 
-TextureView view_texture(const TextureUse& use, const TextureImage& image) {
+TextureView TextureLibrary::view(const TextureUse& use, const TextureImage& image, TextureContent content,
+                                 float alpha_cutoff) {
+    std::unique_ptr<TextureLevels>& levels = levels_[{&image, content, alpha_cutoff}];
+    if (!levels) levels = std::make_unique<TextureLevels>(image, content, alpha_cutoff);
     TextureView view;
     view.lookup.uv_scale_rotation = use.uv_scale_rotation;
     view.lookup.uv_offset = use.uv_offset;
     view.lookup.size_px = {image.width_px, image.height_px};
     view.lookup.wrap = {kernel_wrap(use.wrap_u), kernel_wrap(use.wrap_v)};
     view.lookup.nearest = use.filter == TextureFilter::nearest ? 1 : 0;
-    view.texels = image.texels.data();
+    view.levels = levels->levels().data();
+    view.level_count = static_cast<int>(levels->levels().size());
     view.channels = image.channels;
     view.type = image.type;
-    view.decode = decode_table(image.type, image.srgb);
+    view.decode = decode_table(image.type, image.srgb && content != TextureContent::normals);
     return view;
 }
 
+std::size_t TextureLibrary::memory_bytes() const {
+    std::size_t bytes = 0;
+    for (const auto& [key, levels] : levels_) bytes += levels->memory_bytes();
+    return bytes;
+}
+
 vec4 look_up(const TextureView& texture, vec2 uv) noexcept {
-    const kernels::TexelFootprint footprint = kernels::texel_footprint(texture.lookup, uv);
-    switch (texture.type) {
-        case TexelType::u8:
-            return mix_four<TexelType::u8>(texture, footprint);
-        case TexelType::u16:
-            return mix_four<TexelType::u16>(texture, footprint);
-        case TexelType::f16:
-            return mix_four<TexelType::f16>(texture, footprint);
-        default:
-            return mix_four<TexelType::f32>(texture, footprint);
+    const vec2 at = kernels::transform_uv(texture.lookup, uv);
+    return with_texel_format(texture.type, texture.channels, [&]<TexelType type, int channels>() {
+        return read_level<type, channels>(texture, texture.levels[0], texture.lookup.nearest == 1, at);
+    });
+}
+
+vec4 look_up(const TextureView& texture, vec2 uv, const kernels::UvFootprint& footprint) noexcept {
+    const kernels::TapPlan plan = kernels::plan_taps(texture.lookup, footprint);
+    if (is_magnified(plan)) return look_up(texture, uv);
+    const vec2 at = kernels::transform_uv(texture.lookup, uv);
+    return with_texel_format(texture.type, texture.channels, [&]<TexelType type, int channels>() {
+        return look_up_as<type, channels>(texture, at, plan);
+    });
+}
+
+NormalLookup look_up_normal(const TextureView& texture, vec2 uv, const kernels::UvFootprint& footprint) noexcept {
+    const kernels::TapPlan plan = kernels::plan_taps(texture.lookup, footprint);
+    vec2 at = kernels::transform_uv(texture.lookup, uv);
+    if (is_magnified(plan)) {
+        const vec4 texel = with_texel_format(texture.type, texture.channels, [&]<TexelType type, int channels>() {
+            return read_level<type, channels>(texture, texture.levels[0], texture.lookup.nearest == 1, at);
+        });
+        return {unit_or_up(vec3(texel) * 2.0F - vec3(1.0F)), 0.0F};
     }
+    const LevelPair pair = level_pair(texture, plan.level);
+    vec3 normals(0.0F);
+    float variances = 0.0F;
+    at += plan.first;
+    for (int tap = 0; tap < plan.count; ++tap, at += plan.step) {
+        vec4 normal = read_normal(texture, pair.first, at);
+        if (pair.second_weight > 0.0F)
+            normal = glm::mix(normal, read_normal(texture, pair.first + 1, at), pair.second_weight);
+        normals += unit_or_up(vec3(normal));
+        variances += normal.w;
+    }
+    // What the taps differ by is lost, too.
+    const float share = 1.0F / static_cast<float>(plan.count);
+    const float between = plan.count > 1 ? lost_variance(glm::length(normals) * share) : 0.0F;
+    return {unit_or_up(normals), std::min(variances * share + between, 1.0F)};
 }
 
 }  // namespace macula
