@@ -174,6 +174,8 @@ Expected<void> run(const Options& options, const Logger& logger) {
     supplies.tracer = *tracer;
     supplies.rank_tile = std::shared_ptr<const RankTile>(tables, &tables->rank_tile());
     supplies.renderer = (*tracer)->name() + "; " + (*reconstructors)->name();
+    const SceneNeeds needs = scene_needs(**scene);
+    supplies.image_depth = needs.has(kNeedMirrors) || needs.has(kNeedTransmission) || needs.has(kNeedRefraction);
     supplies.default_sampling = options.sampling;
     supplies.make_sampler = [tables](const Display& display, Eye eye, const std::string& preset) {
         return make_sampler(display, eye, preset, tables);
