@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -9,6 +10,8 @@
 #include <vector>
 
 #include "scenes/framing.h"
+#include "scenes/gltf_animation.h"
+#include "scenes/gltf_camera.h"
 #include "scenes/gltf_document.h"
 #include "scenes/gltf_light.h"
 #include "scenes/gltf_material.h"
@@ -23,8 +26,6 @@ void warn_of_what_is_ignored(GltfContext& context) {
     const std::set<std::string> used(model.extensionsUsed.begin(), model.extensionsUsed.end());
     for (const std::string& name : used)
         if (!is_supported_extension(name)) context.warn("extension " + name, "is optional, unknown and ignored");
-    if (!model.animations.empty()) context.warn("animations", "are ignored; nodes keep their rest transforms");
-    if (!model.skins.empty()) context.warn("skins", "are ignored; meshes keep their rest shapes");
     for (const tinygltf::Mesh& mesh : model.meshes)
         for (const tinygltf::Primitive& primitive : mesh.primitives)
             if (!primitive.targets.empty()) return context.warn("morph targets", "are ignored");
@@ -37,11 +38,17 @@ public:
         : context_(context), materials_(context, scene_), meshes_(context.document.model.meshes.size()) {}
 
     Expected<Scene> read() {
-        const Expected<std::vector<PlacedNode>> nodes = place_gltf_nodes(context_);
+        Expected<std::vector<PlacedNode>> nodes = list_gltf_nodes(context_);
         if (!nodes) return tl::unexpected(nodes.error());
+        Expected<Animation> animation = read_gltf_animation(context_, *nodes);
+        if (!animation) return tl::unexpected(animation.error());
+        if (const Expected<void> placed = place_gltf_nodes(context_, *nodes); !placed)
+            return tl::unexpected(placed.error());
+        pose_gltf_nodes(*animation, *nodes);
         for (const PlacedNode& node : *nodes)
             if (const Expected<void> added = add_node(node); !added) return tl::unexpected(added.error());
         if (scene_.instances.empty()) return context_.error("scene", "there are no triangles to show");
+        scene_.animation = std::move(*animation);
         return std::move(scene_);
     }
 
@@ -49,6 +56,12 @@ private:
     Expected<void> add_node(const PlacedNode& placed) {
         const tinygltf::Node& node = context_.document.model.nodes[placed.node];
         const std::string element = element_name("node", placed.node, node.name);
+        if (node.camera != -1) {
+            Expected<SceneCamera> camera = read_gltf_camera(context_, node.camera, placed.world_from_node,
+                                                            node.name.empty() ? element : node.name);
+            if (!camera) return tl::unexpected(camera.error());
+            add_camera(std::move(*camera));
+        }
         const auto light = node.extensions.find("KHR_lights_punctual");
         if (node.mesh == -1 && light == node.extensions.end()) return {};
         if (placed.singular) {
@@ -60,13 +73,25 @@ private:
             if (!index.IsInt()) return context_.error(element, "KHR_lights_punctual does not name a light");
             Expected<Light> read = read_gltf_light(context_, index.GetNumberAsInt(), placed.world_from_node);
             if (!read) return tl::unexpected(read.error());
+            read->node = placed.moved_by;
             scene_.lights.push_back(*read);
         }
-        return node.mesh == -1 ? Expected<void>() : add_instances(node, element, placed.world_from_node);
+        if (node.mesh == -1) return {};
+        if (node.skin != -1)
+            context_.warn(element,
+                          "is skinned, which Macula does not read: its mesh keeps its shape and does not move "
+                          "with its joints");
+        return add_instances(node, element, placed);
     }
 
-    Expected<void> add_instances(const tinygltf::Node& node, const std::string& element,
-                                 const glm::mat4& world_from_mesh) {
+    /// Cameras are chosen by name: a second one of a name gets a number.
+    void add_camera(SceneCamera camera) {
+        const int before = camera_names_[camera.name]++;
+        if (before > 0) camera.name += " (" + std::to_string(before + 1) + ")";
+        scene_.cameras.push_back(std::move(camera));
+    }
+
+    Expected<void> add_instances(const tinygltf::Node& node, const std::string& element, const PlacedNode& placed) {
         if (node.mesh < 0 || static_cast<std::size_t>(node.mesh) >= meshes_.size())
             return context_.error(element, "mesh " + std::to_string(node.mesh) + " does not exist");
         const auto index = static_cast<std::size_t>(node.mesh);
@@ -79,7 +104,8 @@ private:
             if (scene_.instances.size() >= context_.limits.instances)
                 return context_.error(
                     element, "there are more than " + std::to_string(context_.limits.instances) + " instances");
-            scene_.instances.push_back({node.name.empty() ? element : node.name, mesh, world_from_mesh});
+            scene_.instances.push_back(
+                {node.name.empty() ? element : node.name, mesh, placed.world_from_node, placed.moved_by});
         }
         return {};
     }
@@ -107,6 +133,7 @@ private:
     Scene scene_;
     GltfMaterialReader materials_;
     std::vector<std::optional<std::vector<int>>> meshes_;  ///< scene meshes by glTF mesh, once read
+    std::map<std::string, int> camera_names_;              ///< how many cameras have it
 };
 
 Expected<LoadedScene> load(std::span<const std::uint8_t> bytes, const std::string& name, const std::string& folder,

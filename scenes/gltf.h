@@ -18,16 +18,19 @@ struct GltfLimits {
     std::size_t instances = std::size_t{1} << 20U;
 };
 
-/// Loads glTF 2.0, text or binary (told apart by content), with KHR_lights_punctual, KHR_texture_transform,
-/// KHR_materials_unlit and KHR_mesh_quantization.
+/// Loads glTF 2.0, text or binary (told apart by content), with EXT_texture_webp, KHR_lights_punctual,
+/// KHR_materials_clearcoat, _emissive_strength, _ior, _sheen, _specular, _transmission, _unlit and _volume,
+/// KHR_mesh_quantization and KHR_texture_transform. Animations of nodes become the scene's (scenes/gltf_animation.h),
+/// cameras its places to start from (scenes/gltf_camera.h).
 ///
 /// Refused, as `input_file` naming file and element: malformed or contradictory content, an extension that is required
-/// and unknown, images that are missing or cannot be decoded (PNG and JPEG), non-finite numbers, nodes with two
-/// parents, anything beyond `limits`, and references that leave the file's folder: a uri is a data uri or a relative
-/// path without "..", below the folder of the file.
+/// and unknown, images that are missing or cannot be decoded (PNG, JPEG, WebP), non-finite numbers, nodes with two
+/// parents, animations that lead beyond 1e9 m, anything beyond `limits`, and references that leave the file's folder:
+/// a uri is a data uri or a relative path without "..", below the folder of the file.
 /// Skipped with a warning: unknown optional extensions, points and lines, triangles without area, nodes whose
-/// transform is singular, animations, skins, morph targets.
-/// Shown differently with a warning: alphaMode BLEND, as MASK at cutoff 0.5.
+/// transform is singular, skins (the mesh keeps its shape, placed by its node), morph targets and their weights.
+/// Repaired with a warning: factors out of range, normals without length, keys that do not come after the one before,
+/// rotations without length in animations, WebP images that cannot be decoded where the texture has another one.
 /// What glTF leaves open is decided in scenes/gltf_light.h (exposure, default light) and scenes/framing.h (start pose).
 Expected<LoadedScene> load_gltf(const std::string& path, const GltfLimits& limits = {});
 

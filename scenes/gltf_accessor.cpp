@@ -213,6 +213,7 @@ Expected<std::vector<Element>> read_accessor(GltfContext& context, int accessor)
     return elements;
 }
 
+template Expected<std::vector<glm::vec1>> read_accessor(GltfContext&, int);
 template Expected<std::vector<glm::vec2>> read_accessor(GltfContext&, int);
 template Expected<std::vector<glm::vec3>> read_accessor(GltfContext&, int);
 template Expected<std::vector<glm::vec4>> read_accessor(GltfContext&, int);

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include <glm/ext/vector_float1.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
@@ -18,6 +19,7 @@ namespace macula {
 template <class Element>
 Expected<std::vector<Element>> read_accessor(GltfContext& context, int accessor);
 
+extern template Expected<std::vector<glm::vec1>> read_accessor(GltfContext&, int);
 extern template Expected<std::vector<glm::vec2>> read_accessor(GltfContext&, int);
 extern template Expected<std::vector<glm::vec3>> read_accessor(GltfContext&, int);
 extern template Expected<std::vector<glm::vec4>> read_accessor(GltfContext&, int);

@@ -120,14 +120,21 @@ bool keep_image(tinygltf::Image* image, int index, std::string* /*error*/, std::
     return true;
 }
 
+/// What tinygltf demands and glTF does not: matrices of skins, which we do not read, and nodes of animation channels
+/// that an extension points elsewhere.
+constexpr std::array<std::string_view, 3> kNoComplaints = {"'inverseBindMatrices' property is missing",
+                                                           "'node' property is missing",
+                                                           "`node` field is missing in animation.channels.target"};
+
 /// tinygltf's complaints as one sentence; empty if there are none that count.
 std::string complaints(const std::string& lines) {
     std::istringstream stream(lines);
     std::string all;
     for (std::string line; std::getline(stream, line);) {
-        // tinygltf demands these of a skin; glTF does not, and we do not read skins.
-        if (line.empty() || line.find("'inverseBindMatrices' property is missing") != std::string::npos) continue;
-        all += (all.empty() ? "" : "; ") + line;
+        const bool counts = std::none_of(kNoComplaints.begin(), kNoComplaints.end(), [&line](std::string_view text) {
+            return line.find(text) != std::string::npos;
+        });
+        if (!line.empty() && counts) all += (all.empty() ? "" : "; ") + line;
     }
     return all;
 }

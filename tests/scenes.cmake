@@ -3,8 +3,8 @@ target_link_libraries(macula_test_gltf PUBLIC macula_scenes nlohmann_json::nlohm
 
 macula_test(gltf_test
     SOURCES unit/gltf_mesh_test.cpp unit/gltf_scene_test.cpp unit/gltf_material_test.cpp
-        unit/gltf_material_extension_test.cpp unit/gltf_refusal_test.cpp
-        unit/gltf_balloon_test.cpp property/gltf_accessor_test.cpp
+        unit/gltf_material_extension_test.cpp unit/gltf_animation_test.cpp unit/gltf_camera_test.cpp
+        unit/gltf_refusal_test.cpp unit/gltf_balloon_test.cpp property/gltf_accessor_test.cpp
     LINK macula_test_gltf
     LABELS fast)
 macula_test(animation_test SOURCES unit/animation_test.cpp LINK macula_scenes LABELS fast)

@@ -184,15 +184,38 @@ TEST(GltfScene, ARoomIsEntered) {
 TEST(GltfScene, IgnoredPartsAreNamedOnce) {
     GltfBuilder b = GltfBuilder::triangle();
     b.json["extensionsUsed"] = {"KHR_materials_iridescence", "EXT_whatever"};
-    b.json["skins"] = {{{"joints", {0}}}, {{"joints", {0}}}};
-    b.primitive()["targets"] = {{{"POSITION", 0}}};
+    b.json["meshes"].push_back(b.json["meshes"][0]);
+    for (std::size_t mesh = 0; mesh < 2; ++mesh)
+        b.json["meshes"][mesh]["primitives"][0]["targets"] = {{{"POSITION", 0}}};
     const Expected<LoadedScene> loaded = load_valid(b);
     ASSERT_TRUE(loaded) << loaded.error().message;
-    ASSERT_EQ(loaded->warnings.size(), 4U);
+    ASSERT_EQ(loaded->warnings.size(), 3U);
     EXPECT_NE(loaded->warnings[0].find("EXT_whatever"), std::string::npos);
     EXPECT_NE(loaded->warnings[1].find("KHR_materials_iridescence"), std::string::npos);
-    EXPECT_NE(loaded->warnings[2].find("skins"), std::string::npos);
-    EXPECT_NE(loaded->warnings[3].find("morph targets"), std::string::npos);
+    EXPECT_NE(loaded->warnings[2].find("morph targets"), std::string::npos);
+}
+
+TEST(GltfScene, SkinnedNodesAreShownUnskinnedAndNamed) {
+    GltfBuilder b = GltfBuilder::triangle();
+    b.json["skins"] = {{{"joints", {0}}}};
+    b.node()["skin"] = 0;
+    b.node()["name"] = "cat";
+    const Expected<LoadedScene> loaded = load_valid(b);
+    ASSERT_TRUE(loaded) << loaded.error().message;
+    EXPECT_EQ(loaded->scene->instances.size(), 1U);
+    ASSERT_EQ(loaded->warnings.size(), 1U);
+    EXPECT_NE(loaded->warnings[0].find("node 0 (\"cat\"): is skinned"), std::string::npos) << loaded->warnings[0];
+}
+
+TEST(GltfScene, AHundredThousandNodesDeep) {
+    GltfBuilder b = GltfBuilder::triangle();
+    constexpr std::size_t kDepth = 100000;
+    b.json["nodes"] = nlohmann::json::array();
+    for (std::size_t i = 0; i + 1 < kDepth; ++i) b.json["nodes"].push_back({{"children", {i + 1}}});
+    b.json["nodes"].push_back({{"mesh", 0}, {"translation", {1, 2, 3}}});
+    const Expected<LoadedScene> loaded = load_valid(b);
+    ASSERT_TRUE(loaded) << loaded.error().message;
+    expect_near(place(loaded->scene->instances.at(0), {0, 0, 0}), {1, 2, 3});
 }
 
 }  // namespace
