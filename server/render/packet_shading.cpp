@@ -1,7 +1,12 @@
 #include "server/render/packet_shading.h"
 
+#include <array>
+
+#include "server/kernels/area_light.h"
 #include "server/kernels/color.h"
+#include "server/kernels/fresnel.h"
 #include "server/kernels/shade.h"
+#include "server/render/surface_fetch.h"
 
 namespace macula {
 namespace {
@@ -10,83 +15,8 @@ using glm::vec2;
 using glm::vec3;
 using glm::vec4;
 
-/// A hit's corner indices and barycentric coordinates.
-struct Corners {
-    glm::uvec3 index;
-    float u;
-    float v;
-
-    template <class T>
-    [[nodiscard]] T of(const T* attribute) const {
-        return kernels::interpolate(attribute[index.x], attribute[index.y], attribute[index.z], u, v);
-    }
-};
-
-vec4 look_up(const ShadingTexture& texture, const Corners& corners) {
-    return look_up(texture.view, corners.of(texture.uv));
-}
-
-vec4 base_color(const ShadingInstance& instance, const Corners& corners) {
-    vec4 color = instance.material->base_color;
-    if ((instance.features & kVertexColor) != 0) color *= corners.of(instance.color);
-    if ((instance.features & kBaseColorTexture) != 0) color *= look_up(instance.base_color, corners);
-    return color;
-}
-
-/// The rarer part of a material, for lanes whose instance has more than a base colour.
-void apply_textures(const ShadingInstance& instance, const Corners& corners, int lane, SurfacePacket& surfaces) {
-    const Material& material = *instance.material;
-    if ((instance.features & kMetallicRoughnessTexture) != 0) {
-        const vec4 t = look_up(instance.metallic_roughness, corners);
-        surfaces.roughness[lane] *= t.y;
-        surfaces.metallic[lane] *= t.z;
-    }
-    if ((instance.features & kEmissiveTexture) != 0) {
-        const vec4 t = look_up(instance.emissive, corners);
-        surfaces.radiance.set(lane, material.emissive * vec3(t));
-    }
-    if ((instance.features & kNormalTexture) != 0) {
-        const vec3 normal = kernels::safe_normalize(surfaces.normal[lane]);
-        const vec4 t = look_up(instance.normal_map, corners);
-        surfaces.normal.set(lane,
-                            kernels::map_normal(normal, corners.of(instance.tangent), vec3(t), material.normal_scale));
-    }
-}
-
-/// Reads what is scattered in memory: attributes, factors and textures. `radiance` holds emission afterwards.
-void fetch(const ShadingScene& scene, const HitPacket& hits, SurfacePacket& surfaces) {
-    const ShadingInstance* instances = scene.instances().data();
-    for_each_lane(hits.hit, [&](int lane) {
-        const ShadingInstance& instance = instances[hits.instance[lane]];
-        const Material& material = *instance.material;
-        const Corners corners{instance.triangle[hits.triangle[lane]], hits.u[lane], hits.v[lane]};
-        surfaces.normal.set(lane, corners.of(instance.normal));
-        surfaces.base_color.set(lane, vec3(base_color(instance, corners)));
-        surfaces.metallic[lane] = material.metallic;
-        surfaces.roughness[lane] = material.roughness;
-        surfaces.radiance.set(lane, material.emissive);
-        constexpr std::uint32_t kRare = kMetallicRoughnessTexture | kEmissiveTexture | kNormalTexture | kUnlit;
-        if ((instance.features & kRare) == 0) return;
-        if ((instance.features & kUnlit) != 0) {
-            surfaces.lit &= ~(1U << lane);
-        } else {
-            apply_textures(instance, corners, lane, surfaces);
-        }
-    });
-}
-
-}  // namespace
-
-vec4 base_color_at(const ShadingInstance& instance, std::uint32_t triangle, float u, float v) noexcept {
-    return base_color(instance, {instance.triangle[triangle], u, v});
-}
-
-void find_surfaces(const ShadingScene& scene, const HitPacket& hits, SurfacePacket& surfaces) noexcept {
-    surfaces = SurfacePacket{};  // lanes that missed compute too: with zeros, not with garbage that may be denormal
-    surfaces.lit = hits.hit;
-    fetch(scene, hits, surfaces);
-
-    const vec3 ambient = scene.scene().ambient_radiance;
+/// Where and how the surfaces lie.
+void orient(const HitPacket& hits, SurfacePacket& surfaces) {
     MACULA_LANE_LOOP
     for (int i = 0; i < kLaneCount; ++i) {
         const vec3 direction = hits.direction[i];
@@ -95,29 +25,83 @@ void find_surfaces(const ShadingScene& scene, const HitPacket& hits, SurfacePack
         const vec3 front = hits.geometric_normal[i];
         const float side = glm::dot(front, direction) > 0.0F ? -1.0F : 1.0F;
         const vec3 geometric_normal = kernels::safe_normalize(front * side);
-        const vec3 position = hits.origin + direction * hits.distance[i];
+        const vec3 position = hits.origin[i] + direction * hits.distance[i];
         surfaces.view.set(i, view);
         surfaces.geometric_normal.set(i, geometric_normal);
         surfaces.normal.set(i, kernels::safe_normalize(surfaces.normal[i] * side));
         surfaces.position.set(i, kernels::leave_surface(position, geometric_normal, hits.distance[i] * length));
-        const kernels::Reflectance reflectance =
-            kernels::make_reflectance(surfaces.base_color[i], surfaces.metallic[i], surfaces.roughness[i]);
-        surfaces.radiance.set(i, surfaces.radiance[i] + ambient * kernels::reflect_uniform_light(reflectance));
     }
-    for_each_lane(hits.hit & ~surfaces.lit, [&](int lane) { surfaces.radiance.set(lane, surfaces.base_color[lane]); });
-    for_each_lane(~hits.hit & 0xFFFFU,
-                  [&](int lane) { surfaces.radiance.set(lane, scene.scene().background_radiance); });
 }
 
-void shine(const kernels::Light& light, const SurfacePacket& surfaces, LightPacket& shine) noexcept {
+/// Surfaces of plain materials.
+void prepare_plain(SurfacePacket& surfaces) {
+    MACULA_LANE_LOOP
+    for (int i = 0; i < kLaneCount; ++i) {
+        const float n_dot_v = glm::dot(surfaces.normal[i], surfaces.view[i]);
+        surfaces.surface.set(
+            i, kernels::make_surface(surfaces.base_color[i], surfaces.metallic[i], surfaces.roughness[i], n_dot_v));
+    }
+}
+
+/// Surfaces of lanes whose material has more than plain ones.
+void prepare_rich(const ShadingContext& context, const HitPacket& hits, SurfacePacket& surfaces) {
+    const ShadingInstance* instances = context.scene.instances().data();
+    constexpr std::uint32_t kRich = kNeedTransmission | kNeedRefraction | kNeedSpecular;
+    for_each_lane(surfaces.lit, [&](int lane) {
+        const ShadingInstance& instance = instances[hits.instance[lane]];
+        if ((instance.needs & kRich) == 0) return;
+        const Material& material = *instance.material;
+        const float f0 = kernels::fresnel_f0(material.ior);
+        const vec3 dielectric_f0 = glm::min(material.specular_color * f0, vec3(1.0F)) * material.specular;
+        const bool transmits = ((surfaces.branching >> lane) & 1U) != 0;
+        const float opacity = transmits ? 1.0F - surfaces.transmission[lane] : 1.0F;
+        const float n_dot_v = glm::dot(surfaces.normal[lane], surfaces.view[lane]);
+        surfaces.surface.set(
+            lane, kernels::make_surface(surfaces.base_color[lane], surfaces.metallic[lane], surfaces.roughness[lane],
+                                        dielectric_f0, material.specular, opacity, n_dot_v));
+    });
+}
+
+/// Which share of their specular light rays bring.
+void share_reflections(const ShadingContext& context, const HitPacket& hits, SurfacePacket& surfaces) {
+    const ShadingInstance* instances = context.scene.instances().data();
+    for_each_lane(surfaces.branching & surfaces.lit, [&](int lane) {
+        const bool transmits = (instances[hits.instance[lane]].needs & (kNeedTransmission | kNeedRefraction)) != 0;
+        if (transmits && surfaces.transmission[lane] > 0.0F) {
+            surfaces.reflected[lane] = 1.0F;  // the exact split between reflection and refraction is that of the rays
+            return;
+        }
+        if (((hits.may_reflect >> lane) & 1U) == 0) return;
+        const vec3 albedo = surfaces.surface.specular_albedo[lane];
+        const float share =
+            glm::max(glm::max(albedo.x, albedo.y), albedo.z) * hits.share[lane] * surfaces.coverage[lane];
+        surfaces.reflected[lane] = glossy_share(surfaces.roughness[lane]) * traced_share(share, context.bounce_bound);
+    });
+}
+
+/// Light from all around, less what reflected rays bring.
+void add_surrounding_light(const ShadingContext& context, SurfacePacket& surfaces) {
+    const vec3 ambient = context.scene.scene().ambient_radiance;
+    MACULA_LANE_LOOP
+    for (int i = 0; i < kLaneCount; ++i) {
+        const vec3 albedo = surfaces.surface.base_albedo[i] + surfaces.surface.specular_albedo[i];
+        surfaces.radiance.set(i, surfaces.radiance[i] + ambient * albedo);
+    }
+    for_each_lane(surfaces.branching & surfaces.lit, [&](int lane) {
+        const vec3 traced = surfaces.surface.specular_albedo[lane] * surfaces.reflected[lane];
+        surfaces.radiance.set(lane, surfaces.radiance[lane] - ambient * traced);
+    });
+}
+
+/// Irradiance and directions into radiance, for whichever kind of light.
+template <class Sample>
+void evaluate(const SurfacePacket& surfaces, const SurfaceLanes& lobes, LightPacket& shine, Sample&& sample_at) {
     Lanes<float> sum;
     MACULA_LANE_LOOP
     for (int i = 0; i < kLaneCount; ++i) {
-        const kernels::LightSample sample = kernels::sample_light(light, surfaces.position[i]);
-        const kernels::Reflectance reflectance =
-            kernels::make_reflectance(surfaces.base_color[i], surfaces.metallic[i], surfaces.roughness[i]);
-        const vec3 radiance = kernels::shade_light(reflectance, surfaces.geometric_normal[i], surfaces.normal[i],
-                                                   surfaces.view[i], sample);
+        const kernels::LightSample sample = sample_at(i);
+        const vec3 radiance =
+            kernels::shade_light(lobes[i], surfaces.geometric_normal[i], surfaces.normal[i], surfaces.view[i], sample);
         shine.to_light.set(i, sample.to_light);
         shine.radiance.set(i, radiance);
         sum[i] = radiance.x + radiance.y + radiance.z;
@@ -127,19 +111,111 @@ void shine(const kernels::Light& light, const SurfacePacket& surfaces, LightPack
     shine.lanes = lanes & surfaces.lit;
 }
 
-void add_light(const LightPacket& light, LaneMask reached, SurfacePacket& surfaces) noexcept {
-    MACULA_LANE_LOOP
-    for (int i = 0; i < kLaneCount; ++i) {
-        const bool add = ((reached >> i) & 1U) != 0;
-        surfaces.radiance.x[i] += add ? light.radiance.x[i] : 0.0F;
-        surfaces.radiance.y[i] += add ? light.radiance.y[i] : 0.0F;
-        surfaces.radiance.z[i] += add ? light.radiance.z[i] : 0.0F;
+}  // namespace
+
+void SurfaceLanes::set(int lane, const kernels::Surface& s) {
+    f0.set(lane, s.f0);
+    f90[lane] = s.f90;
+    const kernels::AlbedoCurves& c = s.curves;
+    curves[0][lane] = c.alpha;
+    curves[1][lane] = c.p0;
+    curves[2][lane] = c.p1;
+    curves[3][lane] = c.p2;
+    curves[4][lane] = c.p3;
+    curves[5][lane] = c.p4;
+    curves[6][lane] = c.q0;
+    curves[7][lane] = c.q1;
+    curves[8][lane] = c.q2;
+    curves[9][lane] = c.q3;
+    curves[10][lane] = c.q4;
+    scatter.set(lane, s.scatter);
+    base.set(lane, s.base);
+    entry.set(lane, s.entry);
+    specular_albedo.set(lane, s.specular_albedo);
+    base_albedo.set(lane, s.base_albedo);
+}
+
+kernels::Surface SurfaceLanes::operator[](int lane) const {
+    kernels::Surface s;
+    s.f0 = f0[lane];
+    s.f90 = f90[lane];
+    s.curves = {curves[0][lane], curves[1][lane], curves[2][lane], curves[3][lane], curves[4][lane], curves[5][lane],
+                curves[6][lane], curves[7][lane], curves[8][lane], curves[9][lane], curves[10][lane]};
+    s.scatter = scatter[lane];
+    s.base = base[lane];
+    s.entry = entry[lane];
+    s.specular_albedo = specular_albedo[lane];
+    s.base_albedo = base_albedo[lane];
+    return s;
+}
+
+void find_surfaces(const ShadingContext& context, const HitPacket& hits, SurfacePacket& surfaces) noexcept {
+    // Lanes that missed compute too: with zeros, not with garbage that may be denormal.
+    surfaces.branching = 0;
+    surfaces.normal = Lanes3{};
+    surfaces.base_color = Lanes3{};
+    surfaces.metallic = Lanes<float>{};
+    surfaces.roughness = Lanes<float>{};
+    surfaces.radiance = Lanes3{};
+    surfaces.lit = hits.hit;
+    fetch_surfaces(context, hits, surfaces);
+    orient(hits, surfaces);
+    prepare_plain(surfaces);
+    if ((context.needs & (kNeedTransmission | kNeedRefraction | kNeedSpecular)) != 0)
+        prepare_rich(context, hits, surfaces);
+    if (surfaces.branching != 0) share_reflections(context, hits, surfaces);
+    add_surrounding_light(context, surfaces);
+    for_each_lane(hits.hit & ~surfaces.lit, [&](int lane) { surfaces.radiance.set(lane, surfaces.base_color[lane]); });
+    for_each_lane(~hits.hit & 0xFFFFU,
+                  [&](int lane) { surfaces.radiance.set(lane, context.scene.scene().background_radiance); });
+}
+
+void shine(const ShadingLight& light, const SurfacePacket& surfaces, const SurfaceLanes& lobes,
+           LightPacket& shine) noexcept {
+    evaluate(surfaces, lobes, shine, [&](int i) { return kernels::sample_light(light.light, surfaces.position[i]); });
+}
+
+void shine(const ShadingLight& light, const SurfacePacket& surfaces, const SurfaceLanes& lobes,
+           const LightPlaces& places, LightPacket& shine) noexcept {
+    if (light.is_rectangle) {
+        evaluate(surfaces, lobes, shine, [&](int i) {
+            return kernels::sample_light(light.rectangle, surfaces.position[i], vec2(places.x[i], places.y[i]));
+        });
+    } else {
+        evaluate(surfaces, lobes, shine, [&](int i) {
+            return kernels::sample_light(light.light, surfaces.position[i], vec2(places.x[i], places.y[i]));
+        });
     }
 }
 
-void encode(const SurfacePacket& surfaces, float exposure, Lanes<std::uint32_t>& color) noexcept {
+SurfaceLanes without_reflected(const SurfacePacket& surfaces) noexcept {
+    SurfaceLanes lobes = surfaces.surface;
+    for_each_lane(surfaces.branching & surfaces.lit, [&](int lane) {
+        const float rest = 1.0F - surfaces.reflected[lane];
+        lobes.f0.set(lane, lobes.f0[lane] * rest);
+        lobes.f90[lane] *= rest;
+        lobes.scatter.set(lane, lobes.scatter[lane] * rest);
+    });
+    return lobes;
+}
+
+void add_light(const LightPacket& light, LaneMask reached, float scale, SurfacePacket& surfaces) noexcept {
     MACULA_LANE_LOOP
-    for (int i = 0; i < kLaneCount; ++i) color[i] = kernels::srgb8_from_linear(surfaces.radiance[i] * exposure);
+    for (int i = 0; i < kLaneCount; ++i) {
+        const bool add = ((reached >> i) & 1U) != 0;
+        surfaces.radiance.x[i] += add ? scale * light.radiance.x[i] : 0.0F;
+        surfaces.radiance.y[i] += add ? scale * light.radiance.y[i] : 0.0F;
+        surfaces.radiance.z[i] += add ? scale * light.radiance.z[i] : 0.0F;
+    }
+}
+
+void encode(const Lanes3& radiance, float exposure, Lanes<std::uint32_t>& color) noexcept {
+    MACULA_LANE_LOOP
+    for (int i = 0; i < kLaneCount; ++i) color[i] = kernels::srgb8_from_linear(radiance[i] * exposure);
+}
+
+vec3 surrounding_light(const ShadingContext& context, const vec3& /*direction*/, float /*spread*/) noexcept {
+    return context.scene.scene().ambient_radiance;
 }
 
 }  // namespace macula

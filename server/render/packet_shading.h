@@ -1,27 +1,61 @@
 #pragma once
 
-#include "masks/sample_plan.h"
+#include <cstdint>
+
+#include "server/kernels/brdf.h"
+#include "server/render/embree_scene.h"
 #include "server/render/lanes.h"
 #include "server/render/shading_scene.h"
 
 namespace macula {
 
-/// What a packet of eye rays met. Lanes that are not in `hit` are undefined.
+/// What shading reads, constant while a frame is traced.
+struct ShadingContext {
+    const ShadingScene& scene;
+    const ScenePose& pose;
+    std::uint32_t needs = 0;     ///< of `Need`: code for others is not run
+    float bounce_bound = 0.0F;   ///< TracerOptions'
+    int light_samples_side = 1;  ///< square root of TracerOptions::light_samples
+};
+
+/// What a packet of rays met. Lanes that are not in `hit` are undefined where a miss has no such thing.
 struct HitPacket {
     LaneMask hit = 0;
-    glm::vec3 origin{};       ///< of all rays
-    Lanes3 direction;         ///< of length 1 along the eye's -Z
+    LaneMask traced = 0;       ///< lanes whose ray is one
+    LaneMask may_reflect = 0;  ///< lanes whose reflections may be traced
+    Lanes3 origin;
+    Lanes3 direction;
     Lanes<float> distance;    ///< in lengths of `direction`
     Lanes3 geometric_normal;  ///< any length, on the front side
     Lanes<float> u;           ///< barycentric weight of the second corner
     Lanes<float> v;           ///< and of the third
     Lanes<std::uint32_t> instance;
     Lanes<std::uint32_t> triangle;
+    Lanes<float> spread;         ///< metres by which the footprint widens per metre; defined where needs ask for it
+    Lanes<float> width_m;        ///< of the footprint at the hit, across the ray; likewise
+    Lanes<float> share;          ///< largest component of the share of the radiance that reaches the eye; likewise
+    Lanes<std::uint32_t> pixel;  ///< what tells this sample from its neighbours in random patterns; likewise
+};
+
+/// kernels::Surface, lane by lane.
+struct SurfaceLanes {
+    Lanes3 f0;
+    Lanes<float> f90;
+    Lanes<float> curves[11];
+    Lanes3 scatter;
+    Lanes3 base;
+    Lanes3 entry;
+    Lanes3 specular_albedo;
+    Lanes3 base_albedo;
+
+    void set(int lane, const kernels::Surface& surface);
+    [[nodiscard]] kernels::Surface operator[](int lane) const;
 };
 
 /// The surfaces that a packet met, as its lights see them.
 struct SurfacePacket {
     LaneMask lit = 0;         ///< lanes that lights shine on: neither missed nor unlit
+    LaneMask branching = 0;   ///< lanes from which rays may go on
     Lanes3 position;          ///< lifted off the surface, so that rays may start there
     Lanes3 view;              ///< unit, towards the eye
     Lanes3 geometric_normal;  ///< unit, on the viewer's side
@@ -29,30 +63,70 @@ struct SurfacePacket {
     Lanes3 base_color;
     Lanes<float> metallic;
     Lanes<float> roughness;
+    SurfaceLanes surface;
     Lanes3 radiance;  ///< towards the eye, of all that was added so far
+
+    // Of `branching` lanes alone.
+    Lanes<float> coverage;      ///< share of the light from behind that the surface hides, 0..1
+    Lanes<float> transmission;  ///< share of the base that lets light through
+    Lanes<float> reflected;     ///< share of the specular light that reflected rays bring; the rest is in `radiance`
 };
 
-/// What one light adds to a packet where nothing is in its way.
+/// What one light, or one sample of it, adds to a packet where nothing is in its way.
 struct LightPacket {
     LaneMask lanes = 0;  ///< those that receive something
     Lanes3 to_light;     ///< from the surface's position: to the light, or a unit vector to a directional one
     Lanes3 radiance;
 };
 
-/// Base colour of a hit, all factors and textures applied. For holes cut by alpha.
-glm::vec4 base_color_at(const ShadingInstance& instance, std::uint32_t triangle, float u, float v) noexcept;
+/// Evaluates the materials of all lanes. Afterwards `radiance` holds what needs no light: emission, light from all
+/// around, unlit colours, and what rays see that hit nothing.
+void find_surfaces(const ShadingContext& context, const HitPacket& hits, SurfacePacket& surfaces) noexcept;
 
-/// Evaluates the materials of all lanes. Afterwards `radiance` holds what needs no light: emission, ambient light,
-/// unlit colours, and the background where nothing was hit.
-void find_surfaces(const ShadingScene& scene, const HitPacket& hits, SurfacePacket& surfaces) noexcept;
+/// Evaluates a light without an extent for the lit lanes. `lobes` are those of the surfaces, or what is left of them.
+void shine(const ShadingLight& light, const SurfacePacket& surfaces, const SurfaceLanes& lobes,
+           LightPacket& shine) noexcept;
 
-/// Evaluates one light for the lit lanes.
-void shine(const kernels::Light& light, const SurfacePacket& surfaces, LightPacket& shine) noexcept;
+/// Points of the unit square, by lane.
+struct LightPlaces {
+    Lanes<float> x;
+    Lanes<float> y;
+};
 
-/// Adds a light to the lanes that it reaches.
-void add_light(const LightPacket& light, LaneMask reached, SurfacePacket& surfaces) noexcept;
+/// Evaluates one point of a light with an extent for the lit lanes.
+void shine(const ShadingLight& light, const SurfacePacket& surfaces, const SurfaceLanes& lobes,
+           const LightPlaces& places, LightPacket& shine) noexcept;
 
-/// sRGB-coded colours of the packet's radiance times `exposure`.
-void encode(const SurfacePacket& surfaces, float exposure, Lanes<std::uint32_t>& color) noexcept;
+/// The surfaces' lobes for a light that reflected rays see: without the share that those bring.
+SurfaceLanes without_reflected(const SurfacePacket& surfaces) noexcept;
+
+/// Adds `scale` times a light to the lanes that it reaches.
+void add_light(const LightPacket& light, LaneMask reached, float scale, SurfacePacket& surfaces) noexcept;
+
+/// sRGB-coded colours of radiance times `exposure`.
+void encode(const Lanes3& radiance, float exposure, Lanes<std::uint32_t>& color) noexcept;
+
+/// Light from all around that comes from a direction (unit): the environment's, seen through a cone that widens by
+/// `spread`, and the ambient light. Stands for rays that are not traced.
+glm::vec3 surrounding_light(const ShadingContext& context, const glm::vec3& direction, float spread) noexcept;
+
+/// Share of a reflection or refraction that is traced where `share` of its light would reach the eye: 0 up to the
+/// bound, all from its double on, smooth between them.
+inline float traced_share(float share, float bound) {
+    const float t = bound > 0.0F ? glm::clamp(share / bound - 1.0F, 0.0F, 1.0F) : 1.0F;
+    return t * t * (3.0F - 2.0F * t);
+}
+
+/// Share of a reflection of this roughness that is traced: all up to .25, nothing from kGlossLimit on, smooth between.
+inline float glossy_share(float roughness) {
+    const float t = glm::clamp((kGlossLimit - roughness) / (kGlossLimit - 0.25F), 0.0F, 1.0F);
+    return t * t * (3.0F - 2.0F * t);
+}
+
+/// Full width of the cone that holds half of a reflected GGX lobe, per metre: the microfacets' tilt has a tangent below
+/// alpha in half of the cases, and reflection doubles it, to each side.
+inline float lobe_spread(float roughness) {
+    return 4.0F * roughness * roughness;
+}
 
 }  // namespace macula

@@ -1,14 +1,18 @@
 #include "server/render/shading_scene.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
+#include "server/kernels/fresnel.h"
+
 namespace macula {
 namespace {
 
+/// The part of a directional, point or spot light.
 kernels::Light kernel_light(const Light& light) {
     kernels::Light result{};
     const bool local = light.kind != LightKind::directional;
@@ -22,7 +26,32 @@ kernels::Light kernel_light(const Light& light) {
         result.spot_scale = 1.0F / std::max(0.001F, light.spot_cos_inner - light.spot_cos_outer);
         result.spot_offset = -light.spot_cos_outer * result.spot_scale;
     }
+    result.radius = local ? light.radius_m : std::sin(light.angular_radius_rad);
     return result;
+}
+
+ShadingLight shading_light(const Light& light) {
+    ShadingLight result;
+    result.is_rectangle = light.kind == LightKind::rectangle;
+    result.casts_shadow = light.casts_shadow;
+    result.is_seen = light.instance >= 0;
+    if (result.is_rectangle) {
+        result.rectangle = {light.position_m, light.half_u_m, light.half_v_m, light.intensity};
+        result.has_extent = true;
+    } else {
+        result.light = kernel_light(light);
+        result.has_extent = result.light.radius > 0.0F;
+    }
+    return result;
+}
+
+/// Takes a light along with a node.
+void move(Light& light, const glm::mat4& now_from_start) {
+    const glm::mat3 turn(now_from_start);
+    light.position_m = glm::vec3(now_from_start * glm::vec4(light.position_m, 1.0F));
+    light.direction = glm::normalize(turn * light.direction);
+    light.half_u_m = turn * light.half_u_m;
+    light.half_v_m = turn * light.half_v_m;
 }
 
 template <class T>
@@ -43,21 +72,43 @@ ShadingScene::ShadingScene(std::shared_ptr<const Scene> scene) : scene_(std::mov
     instances_.reserve(count);
     normals_.reserve(count);
     tangents_.reserve(count);
-    for (const Instance& instance : scene_->instances) add_instance(instance);
-    for (const Light& light : scene_->lights) {
-        if (light.intensity != glm::vec3(0.0F)) lights_.push_back({kernel_light(light), light.casts_shadow});
-    }
+    SurfaceNeeds needs(*scene_);
+    for (const Instance& instance : scene_->instances)
+        add_instance(instance, needs.of(scene_->meshes[static_cast<std::size_t>(instance.mesh)]));
+    std::vector<glm::mat4> world_from_node;
+    pose_nodes(scene_->animation, 0.0, world_from_node);
+    for (const glm::mat4& node : world_from_node) node_from_world_.push_back(glm::inverse(node));
+    lights_ = lights_at(world_from_node);
+    needs_ = scene_needs(*scene_).needs;
 }
 
-void ShadingScene::add_instance(const Instance& instance) {
+std::vector<ShadingLight> ShadingScene::lights_at(const std::vector<glm::mat4>& world_from_node) const {
+    std::vector<ShadingLight> lights;
+    for (const Light& light : scene_->lights) {
+        if (light.intensity == glm::vec3(0.0F)) continue;
+        Light placed = light;
+        if (light.node >= 0) {
+            const auto node = static_cast<std::size_t>(light.node);
+            move(placed, world_from_node[node] * node_from_world_[node]);
+        }
+        lights.push_back(shading_light(placed));
+    }
+    return lights;
+}
+
+void ShadingScene::add_instance(const Instance& instance, std::uint32_t needs) {
     const Mesh& mesh = scene_->meshes[static_cast<std::size_t>(instance.mesh)];
     const Material& material = scene_->materials[static_cast<std::size_t>(mesh.material)];
-    const glm::mat3 world_from_mesh(instance.world_from_mesh);
-    const glm::mat3 normal_matrix = glm::transpose(glm::inverse(world_from_mesh));
     ShadingInstance result;
+    result.needs = needs;
+    result.moves = instance.node >= 0;
+    const glm::mat3 world_from_mesh(result.moves ? glm::mat4(1.0F) : instance.world_from_mesh);
+    const bool mirrored = !result.moves && mirrors(instance);
+    const glm::mat3 normal_matrix = glm::transpose(glm::inverse(world_from_mesh));
     result.material = &material;
+    result.absorption_per_m = kernels::absorption_per_m(material.attenuation_color, material.attenuation_distance_m);
     result.triangle = mesh.triangle.data();
-    if (mirrors(instance)) {
+    if (mirrored) {
         auto& triangles = mirrored_triangles_.emplace_back(mesh.triangle);
         for (glm::uvec3& t : triangles) std::swap(t.y, t.z);
         result.triangle = triangles.data();
@@ -93,10 +144,16 @@ void ShadingScene::add_instance(const Instance& instance) {
     }
     if ((result.features & kNormalTexture) != 0) {
         // The bitangent keeps its side of the mirrored normal and tangent: cross products flip.
-        const float handedness = mirrors(instance) ? -1.0F : 1.0F;
+        const float handedness = mirrored ? -1.0F : 1.0F;
         auto& tangents = tangents_.emplace_back(mesh.tangent);
         for (glm::vec4& t : tangents) t = glm::vec4(glm::normalize(world_from_mesh * glm::vec3(t)), t.w * handedness);
         result.tangent = tangents.data();
+    }
+    if (!material.unlit && (needs & (kNeedTransmission | kNeedRefraction)) != 0) {
+        ShadingExtension extension;
+        add_texture(material.transmission_texture, kTransmissionTexture, extension.transmission);
+        if ((result.features & kTransmissionTexture) != 0)
+            result.extension = extensions_.emplace_back(std::make_unique<ShadingExtension>(extension)).get();
     }
     instances_.push_back(result);
 }
@@ -109,7 +166,8 @@ ShadingTexture ShadingScene::texture(const TextureUse& use, const Mesh& mesh, Te
 
 std::size_t ShadingScene::memory_bytes() const {
     return instances_.capacity() * sizeof(ShadingInstance) + bytes_of(normals_) + bytes_of(tangents_) +
-           bytes_of(mirrored_triangles_) + textures_.memory_bytes();
+           bytes_of(mirrored_triangles_) + extensions_.size() * sizeof(ShadingExtension) +
+           textures_.memory_bytes();
 }
 
 }  // namespace macula

@@ -8,7 +8,9 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include "scenes/needs.h"
 #include "scenes/scene.h"
+#include "server/kernels/area_light.h"
 #include "server/kernels/light.h"
 #include "server/render/texture_lookup.h"
 
@@ -22,7 +24,12 @@ enum Feature : std::uint32_t {
     kNormalTexture = 1U << 3,
     kEmissiveTexture = 1U << 4,
     kUnlit = 1U << 5,
+    kTransmissionTexture = 1U << 6,
 };
+
+/// Needs of surfaces from which rays may go on.
+inline constexpr std::uint32_t kBranchingNeeds =
+    kNeedBlending | kNeedTransmission | kNeedRefraction | kNeedMirrors | kNeedGloss;
 
 /// A texture as one instance reads it.
 struct ShadingTexture {
@@ -30,24 +37,37 @@ struct ShadingTexture {
     const glm::vec2* uv = nullptr;  ///< per vertex
 };
 
+/// Textures of an instance whose material has extensions.
+struct ShadingExtension {
+    ShadingTexture transmission;
+};
+
 /// One instance with its material. Pointers are to the scene or to the ShadingScene.
 struct ShadingInstance {
     const glm::uvec3* triangle = nullptr;
-    const glm::vec3* normal = nullptr;   ///< world space, unit
-    const glm::vec4* tangent = nullptr;  ///< world space; present with kNormalTexture
+    const glm::vec3* normal = nullptr;   ///< unit; world space, or mesh space where the instance moves
+    const glm::vec4* tangent = nullptr;  ///< in the same space; present with kNormalTexture
     const glm::vec4* color = nullptr;    ///< present with kVertexColor
     const Material* material = nullptr;
     std::uint32_t features = 0;  ///< of `Feature`
+    std::uint32_t needs = 0;     ///< of `Need`
+    bool moves = false;
+    glm::vec3 absorption_per_m = glm::vec3(0.0F);  ///< of the volume that the mesh encloses
     ShadingTexture base_color;
     ShadingTexture metallic_roughness;
     ShadingTexture normal_map;
     ShadingTexture emissive;
+    const ShadingExtension* extension = nullptr;  ///< present with a texture of an extension
 };
 
 /// A light and whether its rays are traced.
 struct ShadingLight {
     kernels::Light light{};
+    kernels::RectangleLight rectangle{};  ///< instead of `light` where `is_rectangle`
+    bool is_rectangle = false;
+    bool has_extent = false;  ///< sampled in more than one point
     bool casts_shadow = true;
+    bool is_seen = false;  ///< a surface of the scene shines in its place, which reflected rays see
 };
 
 /// A scene as shading reads it: every instance in world space. Keeps the scene. Constant once built.
@@ -60,23 +80,30 @@ public:
     [[nodiscard]] const Scene& scene() const { return *scene_; }
     /// By the scene's instance index.
     [[nodiscard]] const std::vector<ShadingInstance>& instances() const { return instances_; }
-    /// Without those of intensity zero.
+    /// Without those of intensity zero; where they move, at time 0.
     [[nodiscard]] const std::vector<ShadingLight>& lights() const { return lights_; }
+    /// The same lights where the animation's nodes stand at `world_from_node`.
+    [[nodiscard]] std::vector<ShadingLight> lights_at(const std::vector<glm::mat4>& world_from_node) const;
+    /// What all surfaces and lights need, of `Need`.
+    [[nodiscard]] std::uint32_t needs() const { return needs_; }
     /// Bytes beyond those of the scene.
     [[nodiscard]] std::size_t memory_bytes() const;
 
 private:
     ShadingTexture texture(const TextureUse& use, const Mesh& mesh, TextureContent content, float alpha_cutoff = 0.0F);
-    void add_instance(const Instance& instance);
+    void add_instance(const Instance& instance, std::uint32_t needs);
 
     std::shared_ptr<const Scene> scene_;
     TextureLibrary textures_;
     std::vector<ShadingInstance> instances_;
     std::vector<ShadingLight> lights_;
+    std::vector<glm::mat4> node_from_world_;  ///< of the animation's nodes at time 0
+    std::uint32_t needs_ = 0;
     // The inner vectors never move once filled.
     std::vector<std::vector<glm::vec3>> normals_;
     std::vector<std::vector<glm::vec4>> tangents_;
     std::vector<std::vector<glm::uvec3>> mirrored_triangles_;
+    std::vector<std::unique_ptr<ShadingExtension>> extensions_;
 };
 
 /// Whether the instance turns its mesh inside out, which reverses the corner order of front faces.

@@ -1,23 +1,26 @@
-// Speed of tracing with shading and shadows, as a share of the speed at which Embree alone traces the very same
-// primary and shadow rays in packets of 16. The rays are recorded first; then both are timed alternately in one run,
-// and the best time of each counts.
+// Speed of tracing with shading, textures and shadows, as a share of the speed at which Embree alone traces the very
+// same primary, shadow and secondary rays in the same packets of 16. The rays are recorded as the tracer traces them;
+// then both are timed alternately in one run, and the best time of each counts.
+//
+// usage: trace_bench [--scene NAME] [--bounces N] [--bounce-bound X] [options of Google Benchmark]
 
 #include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/enumerable_thread_specific.h>
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <bit>
 #include <cstdint>
+#include <cstdlib>
 #include <ctime>
 #include <limits>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include <benchmark/benchmark.h>
-#include <glm/gtc/quaternion.hpp>
 
 #include "masks/display.h"
 #include "masks/rank_tile.h"
@@ -25,13 +28,24 @@
 #include "masks/tile_tables.h"
 #include "protocol/base/clock.h"
 #include "scenes/load.h"
-#include "server/kernels/camera.h"
+#include "scenes/needs.h"
 #include "server/render/embree_calls.h"
-#include "server/render/packet_shading.h"
+#include "server/render/lanes.h"
 #include "server/render/tracer.h"
 
 namespace macula {
 namespace {
+
+/// What the command line asks for.
+struct Arguments {
+    std::string scene = "bunny-box";
+    TracerOptions options;
+};
+
+Arguments& arguments() {
+    static Arguments value;
+    return value;
+}
 
 /// What trace() needs for both eyes of a display at the scene's start, gaze on the optical axes.
 struct Frame {
@@ -76,24 +90,51 @@ RTCScene bare_scene(RTCDevice device, const Scene& scene) {
     return result;
 }
 
-struct ShadowRays {
+struct RecordedPacket {
+    RayTap::Kind kind;
+    Lanes<int> valid;
     Lanes3 origin;
     Lanes3 direction;
-    Lanes<int> valid;
-    float far = 0.0F;
+    Lanes<float> far;
 };
 
-/// The rays of one packet: a range of all shadow packets belongs to it.
-struct RecordedPacket {
-    glm::vec3 origin;
-    Lanes3 direction;
-    std::size_t shadows_begin;
-    std::size_t shadows_end;
+/// Keeps every packet, in the order in which a thread traced them.
+class Recorder final : public RayTap {
+public:
+    void packet(Kind kind, const int* valid, const float* origin, const float* direction, const float* far) override {
+        if (!recording.load(std::memory_order_relaxed)) return;
+        RecordedPacket& packet = packets_.local().emplace_back();
+        packet.kind = kind;
+        std::copy_n(valid, kLaneCount, packet.valid.value);
+        const auto copy = [](const float* from, Lanes3& to) {
+            std::copy_n(from, kLaneCount, to.x.value);
+            std::copy_n(from + kLaneCount, kLaneCount, to.y.value);
+            std::copy_n(from + 2 * static_cast<std::ptrdiff_t>(kLaneCount), kLaneCount, to.z.value);
+        };
+        copy(origin, packet.origin);
+        copy(direction, packet.direction);
+        std::copy_n(far, kLaneCount, packet.far.value);
+    }
+    [[nodiscard]] std::vector<RecordedPacket> take() {
+        std::vector<RecordedPacket> all;
+        for (auto& packets : packets_) {
+            all.insert(all.end(), packets.begin(), packets.end());
+            packets = {};
+        }
+        return all;
+    }
+
+    std::atomic<bool> recording = false;
+
+private:
+    tbb::enumerable_thread_specific<std::vector<RecordedPacket>> packets_;
 };
 
+/// Traces recorded packets with nothing but Embree.
 class BareEmbree {
 public:
-    explicit BareEmbree(const Scene& scene) : device_(rtcNewDevice(nullptr)), scene_(bare_scene(device_, scene)) {}
+    BareEmbree(const Scene& scene, std::vector<RecordedPacket> packets)
+        : device_(rtcNewDevice(nullptr)), scene_(bare_scene(device_, scene)), packets_(std::move(packets)) {}
     BareEmbree(const BareEmbree&) = delete;
     BareEmbree& operator=(const BareEmbree&) = delete;
     ~BareEmbree() {
@@ -101,112 +142,54 @@ public:
         rtcReleaseDevice(device_);
     }
 
-    /// Records what the tracer would trace, with the tracer's own shading code.
-    void record(const ShadingScene& scene, const Frame& frame);
-    /// Traces all that was recorded; returns the sum of hits, so that nothing can be left out.
-    [[nodiscard]] std::uint64_t trace() const;
-    [[nodiscard]] std::uint64_t shadow_rays() const { return shadow_rays_; }
+    /// Returns the sum of hits, so that nothing can be left out.
+    [[nodiscard]] std::uint64_t trace() const {
+        std::atomic<std::uint64_t> total = 0;
+        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, packets_.size(), 192), [&](const auto& range) {
+            std::uint64_t sum = 0;
+            for (std::size_t k = range.begin(); k < range.end(); ++k) sum += trace(packets_[k]);
+            total += sum;
+        });
+        return total;
+    }
 
 private:
-    void intersect(const RecordedPacket& packet, RTCRayHit16& rays) const;
+    static void fill(RTCRay16& ray, const RecordedPacket& packet) {
+        for (int i = 0; i < kLaneCount; ++i) {
+            ray.org_x[i] = packet.origin.x[i];
+            ray.org_y[i] = packet.origin.y[i];
+            ray.org_z[i] = packet.origin.z[i];
+            ray.dir_x[i] = packet.direction.x[i];
+            ray.dir_y[i] = packet.direction.y[i];
+            ray.dir_z[i] = packet.direction.z[i];
+            ray.tnear[i] = 0.0F;
+            ray.tfar[i] = packet.far[i];
+            ray.time[i] = 0.0F;
+            ray.mask[i] = 0xFFFFFFFFU;
+            ray.flags[i] = 0;
+        }
+    }
+    [[nodiscard]] std::uint64_t trace(const RecordedPacket& packet) const {
+        std::uint64_t sum = 0;
+        if (packet.kind == RayTap::Kind::shadow) {
+            RTCRay16 ray;
+            fill(ray, packet);
+            occluded_coherent(packet.valid.value, scene_, ray);
+            for (int i = 0; i < kLaneCount; ++i) sum += ray.tfar[i] < 0.0F ? 1U : 0U;
+        } else {
+            RTCRayHit16 rays;
+            fill(rays.ray, packet);
+            for (int i = 0; i < kLaneCount; ++i) rays.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+            intersect_coherent(packet.valid.value, scene_, rays);
+            for (int i = 0; i < kLaneCount; ++i) sum += rays.hit.primID[i];
+        }
+        return sum;
+    }
 
     RTCDevice device_;
     RTCScene scene_;
     std::vector<RecordedPacket> packets_;
-    std::vector<ShadowRays> shadows_;
-    std::uint64_t shadow_rays_ = 0;
 };
-
-void fill(RTCRay16& ray, int i, const glm::vec3& origin, const glm::vec3& direction, float far) {
-    ray.org_x[i] = origin.x;
-    ray.org_y[i] = origin.y;
-    ray.org_z[i] = origin.z;
-    ray.dir_x[i] = direction.x;
-    ray.dir_y[i] = direction.y;
-    ray.dir_z[i] = direction.z;
-    ray.tnear[i] = 0.0F;
-    ray.tfar[i] = far;
-    ray.time[i] = 0.0F;
-    ray.mask[i] = 0xFFFFFFFFU;
-    ray.flags[i] = 0;
-}
-
-void BareEmbree::intersect(const RecordedPacket& packet, RTCRayHit16& rays) const {
-    alignas(64) static constexpr std::array<int, 16> kAll = {-1, -1, -1, -1, -1, -1, -1, -1,
-                                                             -1, -1, -1, -1, -1, -1, -1, -1};
-    for (int i = 0; i < kLaneCount; ++i) {
-        fill(rays.ray, i, packet.origin, packet.direction[i], std::numeric_limits<float>::infinity());
-        rays.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
-    }
-    intersect_coherent(kAll.data(), scene_, rays);
-}
-
-void BareEmbree::record(const ShadingScene& scene, const Frame& frame) {
-    for (const Eye eye : {kLeftEye, kRightEye}) {
-        const EyeView& view = frame.views[eye];
-        const SamplePlan& plan = frame.plans[eye];
-        const glm::mat3 axes = glm::mat3_cast(view.world_from_eye.orientation);
-        const glm::vec4 edges(view.tangents.left, view.tangents.right, view.tangents.bottom, view.tangents.top);
-        for (std::size_t first = 0; first + kLaneCount <= plan.trace_order.size(); first += kLaneCount) {
-            RecordedPacket packet{view.world_from_eye.position_m, {}, shadows_.size(), shadows_.size()};
-            for (int i = 0; i < kLaneCount; ++i) {
-                const SamplePosition p = plan.position[plan.trace_order[first + static_cast<std::size_t>(i)]];
-                packet.direction.set(i,
-                                     kernels::eye_ray_direction(axes, edges, glm::vec2(view.width_px, view.height_px),
-                                                                glm::vec2(p.x_px, p.y_px) + 0.5F));
-            }
-            RTCRayHit16 rays;
-            intersect(packet, rays);
-            HitPacket hits;
-            hits.origin = packet.origin;
-            hits.direction = packet.direction;
-            for (int i = 0; i < kLaneCount; ++i) {
-                hits.hit |= static_cast<LaneMask>(rays.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID) << i;
-                hits.distance[i] = rays.ray.tfar[i];
-                hits.geometric_normal.set(i, {rays.hit.Ng_x[i], rays.hit.Ng_y[i], rays.hit.Ng_z[i]});
-                hits.u[i] = rays.hit.u[i];
-                hits.v[i] = rays.hit.v[i];
-                hits.instance[i] = rays.hit.geomID[i];
-                hits.triangle[i] = rays.hit.primID[i];
-            }
-            SurfacePacket surfaces;
-            find_surfaces(scene, hits, surfaces);
-            for (const ShadingLight& light : scene.lights()) {
-                LightPacket lighting;
-                shine(light.light, surfaces, lighting);
-                if (!light.casts_shadow || lighting.lanes == 0) continue;
-                ShadowRays shadow{surfaces.position, lighting.to_light, {}, 1.0F};
-                if (light.light.position.w == 0.0F) shadow.far = std::numeric_limits<float>::infinity();
-                for (int i = 0; i < kLaneCount; ++i) shadow.valid[i] = ((lighting.lanes >> i) & 1U) != 0 ? -1 : 0;
-                shadow_rays_ += static_cast<std::uint64_t>(std::popcount(lighting.lanes));
-                shadows_.push_back(shadow);
-            }
-            packet.shadows_end = shadows_.size();
-            packets_.push_back(packet);
-        }
-    }
-}
-
-std::uint64_t BareEmbree::trace() const {
-    std::atomic<std::uint64_t> total = 0;
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, packets_.size(), 64), [&](const auto& range) {
-        std::uint64_t sum = 0;
-        for (std::size_t k = range.begin(); k < range.end(); ++k) {
-            RTCRayHit16 rays;
-            intersect(packets_[k], rays);
-            for (int i = 0; i < kLaneCount; ++i) sum += rays.hit.primID[i];
-            for (std::size_t s = packets_[k].shadows_begin; s < packets_[k].shadows_end; ++s) {
-                const ShadowRays& shadow = shadows_[s];
-                RTCRay16 ray;
-                for (int i = 0; i < kLaneCount; ++i) fill(ray, i, shadow.origin[i], shadow.direction[i], shadow.far);
-                occluded_coherent(shadow.valid.value, scene_, ray);
-                for (int i = 0; i < kLaneCount; ++i) sum += ray.tfar[i] < 0.0F ? 1U : 0U;
-            }
-        }
-        total += sum;
-    });
-    return total;
-}
 
 /// Wall and processor time since construction. On a machine with other work only the latter is steady.
 class Stopwatch {
@@ -230,18 +213,37 @@ struct Best {
     }
 };
 
+/// A display, the scene of the command line, and a frame of `percent` of the pixels.
+std::optional<Frame> load_frame(benchmark::State& state, std::shared_ptr<const Scene>& scene, std::int64_t percent) {
+    static std::optional<LoadedScene> kept;  // large scenes take seconds to load
+    if (!kept) {
+        auto loaded = load_scene(arguments().scene);
+        if (loaded) kept = std::move(*loaded);
+    }
+    const auto display = load_display("vive");
+    if (!kept || !display) {
+        state.SkipWithError("scene or display failed to load");
+        return std::nullopt;
+    }
+    scene = kept->scene;
+    static const auto tables = std::make_shared<const TileTables>(make_rank_tile());
+    return std::optional<Frame>(std::in_place, *scene, *display, tables, static_cast<double>(percent) / 100.0);
+}
+
 /// One stereo frame, `range(0)` per cent of the pixels.
 void trace_against_bare(benchmark::State& state) {
-    const auto loaded = load_scene("bunny-box");
-    const auto display = load_display("vive");
-    auto tracer = loaded ? make_embree_tracer(loaded->scene) : tl::unexpected(loaded.error());
-    if (!display || !tracer) return state.SkipWithError("scene, display or tracer failed to load");
-    const auto tables = std::make_shared<const TileTables>(make_rank_tile());
-    Frame frame(*loaded->scene, *display, tables, static_cast<double>(state.range(0)) / 100.0);
-    BareEmbree bare(*loaded->scene);
-    bare.record(ShadingScene(loaded->scene), frame);
+    std::shared_ptr<const Scene> scene;
+    auto frame = load_frame(state, scene, state.range(0));
+    if (!frame) return;
+    Recorder recorder;
+    const auto tapped = make_embree_tracer(scene, arguments().options, &recorder);
+    const auto tracer = make_embree_tracer(scene, arguments().options);
+    if (!tapped || !tracer) return state.SkipWithError("the tracer failed");
+    const auto tasks = frame->tasks();
+    recorder.recording = true;
+    const TraceCounts counts = (*tapped)->trace(tasks);
+    const BareEmbree bare(*scene, recorder.take());
 
-    const auto tasks = frame.tasks();
     Best ours;
     Best alone;
     for (auto _ : state) {
@@ -252,14 +254,19 @@ void trace_against_bare(benchmark::State& state) {
         benchmark::DoNotOptimize(bare.trace());
         alone.add(bare_watch);
     }
-    const auto rays = static_cast<double>(frame.rays());
+    const auto rays = static_cast<double>(counts.primary);
     state.counters["trace_ms"] = ours.wall_s * 1e3;
     state.counters["bare_ms"] = alone.wall_s * 1e3;
     state.counters["share_of_bare_speed"] = alone.wall_s / ours.wall_s;
     state.counters["by_cpu_time"] = alone.cpu_s / ours.cpu_s;
     state.counters["cpu_ns_per_primary_ray"] = ours.cpu_s * 1e9 / rays;
     state.counters["Mrays"] = rays * 1e-6;
-    state.counters["shadow_rays_per_primary"] = static_cast<double>(bare.shadow_rays()) / rays;
+    const auto per_primary = [&](std::uint64_t count) { return static_cast<double>(count) / rays; };
+    state.counters["shadow_rays_per_primary"] = per_primary(counts.shadow);
+    state.counters["skipped_shadow_per_primary"] = per_primary(counts.skipped_shadow);
+    state.counters["reflections_per_primary"] = per_primary(counts.reflection);
+    state.counters["transmissions_per_primary"] = per_primary(counts.transmission);
+    state.counters["skipped_bounces_per_primary"] = per_primary(counts.skipped_bounce);
 }
 BENCHMARK(trace_against_bare)
     ->Arg(100)
@@ -270,7 +277,54 @@ BENCHMARK(trace_against_bare)
     ->Iterations(12)
     ->Unit(benchmark::kMillisecond);
 
+/// What code for a feature costs where the scene has none of it: time with it forced, as a share of the time without,
+/// taken in turn; the median of the pairs. `range(0)` is the bit of Need.
+void unused_feature(benchmark::State& state) {
+    std::shared_ptr<const Scene> scene;
+    auto frame = load_frame(state, scene, 27);
+    if (!frame) return;
+    TracerOptions forced = arguments().options;
+    forced.forced_features = 1U << static_cast<std::uint32_t>(state.range(0));
+    const auto with = make_embree_tracer(scene, forced);
+    const auto without = make_embree_tracer(scene, arguments().options);
+    if (!with || !without) return state.SkipWithError("the tracer failed");
+    if ((scene_needs(*scene).needs & forced.forced_features) != 0) return state.SkipWithError("the scene needs it");
+    const auto tasks = frame->tasks();
+    std::vector<double> ratios;
+    for (auto _ : state) {
+        const Stopwatch with_watch;
+        (*with)->trace(tasks);
+        const double with_s = with_watch.cpu_s();
+        const Stopwatch without_watch;
+        (*without)->trace(tasks);
+        ratios.push_back(with_s / without_watch.cpu_s());
+    }
+    std::nth_element(ratios.begin(), ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2), ratios.end());
+    state.counters["time_with_over_without"] = ratios[ratios.size() / 2];
+}
+BENCHMARK(unused_feature)->DenseRange(0, kNeedCount - 1)->Iterations(21)->Unit(benchmark::kMillisecond);
+
 }  // namespace
 }  // namespace macula
 
-BENCHMARK_MAIN();
+int main(int argc, char** argv) {
+    std::vector<char*> rest{argv[0]};
+    for (int i = 1; i < argc; ++i) {
+        const std::string name = argv[i];
+        const bool has_value = i + 1 < argc;
+        if (name == "--scene" && has_value) {
+            macula::arguments().scene = argv[++i];
+        } else if (name == "--bounces" && has_value) {
+            macula::arguments().options.bounces = std::atoi(argv[++i]);
+        } else if (name == "--bounce-bound" && has_value) {
+            macula::arguments().options.bounce_bound = std::strtof(argv[++i], nullptr);
+        } else {
+            rest.push_back(argv[i]);
+        }
+    }
+    int count = static_cast<int>(rest.size());
+    benchmark::Initialize(&count, rest.data());
+    if (benchmark::ReportUnrecognizedArguments(count, rest.data())) return 2;
+    benchmark::RunSpecifiedBenchmarks();
+    return 0;
+}

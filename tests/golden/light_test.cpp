@@ -3,16 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
+#include "server/kernels/brdf.h"
 #include "tests/support/trace_scene.h"
 
 namespace macula {
 namespace {
 
 using glm::vec3;
-
-constexpr float kPi = std::numbers::pi_v<float>;
 
 /// Difference of the radiance of a white and of a black wall: the Lambert part, without the specular one.
 struct LambertPart {
@@ -32,13 +30,12 @@ struct LambertPart {
     [[nodiscard]] float at(int x, int y) const { return (white.radiance(x, y) - black.radiance(x, y)).x; }
 };
 
-float weight(float cosine) {
-    return 1.0F - std::pow(1.0F - cosine, 5.0F);
-}
-
-/// The base's share of the light of unit irradiance on a surface that faces it.
+/// The base's share of the light of unit irradiance on a surface that faces it. What surfaces reflect is tested with
+/// the kernels; here it is how much light arrives.
 float lambert(float n_dot_l, float n_dot_v) {
-    return n_dot_l / kPi * 0.96F * 1.05F * weight(n_dot_l) * weight(n_dot_v);
+    const kernels::Surface surface = kernels::make_surface(vec3(1.0F), 0.0F, 1.0F, n_dot_v);
+    const kernels::Albedos lit = kernels::albedos_at(surface.curves, n_dot_l);
+    return n_dot_l * surface.base.x * (surface.entry.x - surface.entry.y * lit.grazing - surface.entry.z * lit.loss);
 }
 
 /// Point of the wall that a pixel shows.

@@ -157,21 +157,22 @@ TEST(Material, EmissionAddsItsTexture) {
 }
 
 TEST(Material, MetallicRoughnessTextureReadsGreenAndBlue) {
-    // A metal under uniform light shows its base colour, a dielectric 4 % + 96 % of it.
+    // A smooth metal in uniform light shows its base colour, a dielectric 4 % + 96 % of it.
     const auto radiance = [](std::uint8_t blue) {
         Scene scene;
         scene.ambient_radiance = vec3(1.0F);
+        scene.background_radiance = vec3(1.0F);
         Material material = test::white();
         material.base_color = vec4(0.0F, 0.5F, 0.0F, 1.0F);
         material.metallic = 1.0F;
-        material.metallic_roughness_texture.image = test::add_image(scene, 1, 1, {7, 90, blue, 255});
+        material.metallic_roughness_texture.image = test::add_image(scene, 1, 1, {7, 10, blue, 255});
         test::add(scene, screen(), material);
         return test::trace(scene, test::square_view(4)).radiance(2, 2);
     };
-    EXPECT_NEAR(radiance(255).x, 0.0F, 1e-6F);
-    EXPECT_NEAR(radiance(255).y, 0.5F, 1e-6F);
-    EXPECT_NEAR(radiance(0).x, 0.04F, 1e-6F);
-    EXPECT_NEAR(radiance(0).y, 0.04F + 0.48F, 1e-6F);
+    EXPECT_NEAR(radiance(255).x, 0.0F, 1e-3F);
+    EXPECT_NEAR(radiance(255).y, 0.5F, 5e-3F);
+    EXPECT_NEAR(radiance(0).x, 0.04F, 1e-3F);
+    EXPECT_NEAR(radiance(0).y, 0.04F + 0.48F, 5e-3F);
 
     // Green is the roughness: the highlight of a light beside the eye is brighter on a smooth surface.
     const auto highlight = [](std::uint8_t green) {
