@@ -34,3 +34,5 @@ macula_test(bunny_box_golden_test
 macula_bench(trace_bench SOURCES bench/trace_bench.cpp
     LINK macula_tracer macula_kernels macula_masks macula_scenes embree TBB::tbb)
 target_compile_definitions(trace_bench PRIVATE MACULA_EMBREE_MAJOR=${embree_VERSION_MAJOR})
+
+macula_bench(lobes_bench SOURCES bench/lobes_bench.cpp LINK macula_kernels)

@@ -66,8 +66,8 @@ KERNEL LightSample sample_light(KERNEL_IN(Light) light, vec3 point, vec2 xi) {
     float half_chord = sqrt(max(sine_sq - versine * (2.0F - versine), 0.0F));
     float reach = mix(1.0F, distance * max(cosine - half_chord, 0.0F), light.position.w);
     result.to_light = result.direction * reach;
-    result.irradiance = center.irradiance * (2.0F * versine_of_cone / max(sine_sq, 1.0e-20F));
-    result.irradiance = sine_sq > 1.0e-12F ? result.irradiance : center.irradiance;
+    float per_point_light = sine_sq > 1.0e-12F ? 2.0F * versine_of_cone / sine_sq : 1.0F;
+    result.irradiance = center.irradiance * per_point_light;
     return result;
 }
 

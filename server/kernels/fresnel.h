@@ -1,6 +1,6 @@
 #pragma once
 
-#include "protocol/gl/kernel_language.h"
+#include "server/kernels/powers.h"
 
 // What an interface between two media reflects, what it lets through, and where to. An interface is described by
 // `eta`, the index of refraction behind it over that before it.
@@ -51,12 +51,14 @@ KERNEL Refraction refract_ray(vec3 direction, vec3 normal, float eta) {
     float scale = 1.0F / eta;
     float cosine_behind_sq = 1.0F - scale * scale * (1.0F - cosine * cosine);
     bool passes = cosine_behind_sq > 0.0F;
-    vec3 behind = direction * scale + normal * (scale * cosine - sqrt(max(cosine_behind_sq, 0.0F)));
-    vec3 mirrored = direction + normal * (2.0F * cosine);
-    vec3 chosen = passes ? behind : mirrored;
+    float along = passes ? scale : 1.0F;
+    float turn_behind = scale * cosine - sqrt(max(cosine_behind_sq, 0.0F));
+    float turn = passes ? turn_behind : 2.0F * cosine;
+    vec3 chosen = direction * along + normal * turn;
     Refraction result;
     result.direction = chosen * (1.0F / sqrt(max(dot(chosen, chosen), 1.0e-30F)));
-    result.reflectance = passes ? fresnel_dielectric(cosine, eta) : 1.0F;
+    float reflectance = fresnel_dielectric(cosine, eta);
+    result.reflectance = passes ? reflectance : 1.0F;  // the two agree except for rounding at the critical angle
     return result;
 }
 
@@ -76,7 +78,8 @@ KERNEL vec3 absorption_per_m(vec3 color, float distance_m) {
 
 /// Share of light left after `path_m` in a medium (Beer and Lambert's law).
 KERNEL vec3 beer_transmittance(vec3 absorption, float path_m) {
-    return exp(absorption * -path_m);
+    vec3 depth = absorption * path_m;
+    return vec3(exp_near(-depth.x), exp_near(-depth.y), exp_near(-depth.z));
 }
 
 KERNEL_END

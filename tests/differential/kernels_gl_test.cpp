@@ -62,7 +62,7 @@ TEST_P(KernelsOnGl, AgreeWithCpp) {
     const auto current = CurrentContext::enter(**context);
     ASSERT_TRUE(current) << current.error().message;
     const auto program = ComputeProgram::build(
-        **context, std::array{camera_text, color_text, fresnel_text, microfacet_text, brdf_text, powers_text,
+        **context, std::array{camera_text, color_text, powers_text, fresnel_text, microfacet_text, brdf_text,
                               sheen_text, layers_text, light_text, area_light_text, shade_text, texture_text,
                               kernel_cases_text, kernel_cases_main_text});
     ASSERT_TRUE(program) << program.error().message;
