@@ -20,11 +20,12 @@ struct Surface {
     vec3 f0;    ///< specular reflectance at normal incidence
     float f90;  ///< and at grazing incidence
     AlbedoCurves curves;
-    vec3 scatter;          ///< multiple-scattering lobe per loss(n.l), 1/sr
-    vec3 base;             ///< Lambert base per entry(n.l), 1/sr
-    vec3 entry;            ///< share of light that enters the base: x - y grazing(n.l) - z loss(n.l)
-    vec3 specular_albedo;  ///< share of uniform light that the lobes send to the viewer
-    vec3 base_albedo;      ///< and that the base sends
+    vec3 scatter;               ///< multiple-scattering lobe per loss(n.l), 1/sr
+    vec3 base;                  ///< Lambert base per entry(n.l), 1/sr
+    vec3 entry;                 ///< share of light that enters the base: x - y grazing(n.l) - z loss(n.l)
+    vec3 specular_albedo;       ///< share of uniform light that the lobes send to the viewer
+    vec3 base_albedo;           ///< and that the base sends
+    vec3 mean_specular_albedo;  ///< mean of specular_albedo over all views, weighted by their cosines
 };
 
 /// Colour of the light that leaves the microfacets after more than one bounce, as a share of what single scattering
@@ -58,6 +59,7 @@ KERNEL Surface make_surface(vec3 base_color, float metallic, float roughness, ve
     vec3 color = multiple_scattering_color(dielectric_f0, dielectric_f90, mean.loss) * dielectric +
                  multiple_scattering_color(base_color, 1.0F, mean.loss) * metallic;
     s.scatter = color * (seen.loss / (kPi * mean.loss));
+    s.mean_specular_albedo = s.f0 * (1.0F - mean.loss - mean.grazing) + vec3(s.f90 * mean.grazing) + color * mean.loss;
     s.specular_albedo = s.f0 * (1.0F - seen.loss - seen.grazing) + vec3(s.f90 * seen.grazing) + color * seen.loss;
 
     float share = multiple_scattering_share(strongest_f0, dielectric_f90, mean.loss);

@@ -34,8 +34,7 @@ KERNEL float fresnel_dielectric(float cosine, float eta) {
     float sum = g + c;
     float across = (eta * eta - 1.0F) / max(sum * sum, 1.0e-12F);  // (g - c) / (g + c) without its cancellation
     float along = (c * sum - 1.0F) / (c * (eta * eta - 1.0F) / max(sum, 1.0e-6F) + 1.0F);
-    float reflectance = 0.5F * across * across * (1.0F + along * along);
-    return g_sq > 0.0F ? min(reflectance, 1.0F) : 1.0F;
+    return min(0.5F * across * across * (1.0F + along * along) + (g_sq > 0.0F ? 0.0F : 1.0F), 1.0F);
 }
 
 /// A ray's way through an interface.
