@@ -29,6 +29,7 @@ const std::map<std::string, std::set<std::string>> kMayInclude = {
     {"server/render", {"protocol/base", "protocol/gl", "masks", "scenes", "server/kernels"}},
     {"server/service",
      {"protocol/base", "protocol/message", "protocol/transport", "protocol/codec", "masks", "scenes", "server/render"}},
+    {"server/offline", {"protocol/base", "masks", "scenes", "server", "server/kernels", "server/render"}},
     {"server",
      {"protocol/base", "protocol/transport", "protocol/codec", "protocol/gl", "masks", "scenes", "server/render",
       "server/service"}},
