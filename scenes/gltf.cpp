@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "scenes/emissive_quads.h"
 #include "scenes/framing.h"
 #include "scenes/gltf_animation.h"
 #include "scenes/gltf_camera.h"
@@ -148,6 +149,7 @@ Expected<LoadedScene> load(std::span<const std::uint8_t> bytes, const std::strin
     const Bounds bounds = world_bounds(*scene);
     if (!std::isfinite(glm::dot(bounds.size(), bounds.size())))
         return context.error("scene", "the transforms lead beyond what a float can hold");
+    add_emissive_quads(*scene);
     expose_gltf_lights(*scene, bounds);
     frame_start(*scene, bounds);
     scene->name = name;

@@ -21,7 +21,7 @@ struct GltfLimits {
 /// Loads glTF 2.0, text or binary (told apart by content), with EXT_texture_webp, KHR_lights_punctual,
 /// KHR_materials_clearcoat, _emissive_strength, _ior, _sheen, _specular, _transmission, _unlit and _volume,
 /// KHR_mesh_quantization and KHR_texture_transform. Animations of nodes become the scene's (scenes/gltf_animation.h),
-/// cameras its places to start from (scenes/gltf_camera.h).
+/// cameras its places to start from (scenes/gltf_camera.h), emissive quads lights (scenes/emissive_quads.h).
 ///
 /// Refused, as `input_file` naming file and element: malformed or contradictory content, an extension that is required
 /// and unknown, images that are missing or cannot be decoded (PNG, JPEG, WebP), non-finite numbers, nodes with two

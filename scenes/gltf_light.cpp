@@ -11,22 +11,22 @@ namespace macula {
 namespace {
 
 constexpr float kKeyRadiance = 0.8F;
+constexpr float kLeastIrradiance = 0.5F;  // of rectangles that need no sun
 
 float luminance(const glm::vec3& c) {
     return glm::dot(c, glm::vec3(0.2126F, 0.7152F, 0.0722F));
 }
 
-/// What the scene's lights would send to its middle if nothing were in the way.
-float metered_irradiance(const Scene& scene, const Bounds& bounds) {
-    const glm::vec3 middle = bounds.middle();
-    const float nearest = std::max(0.25F * bounds.radius(), 1e-3F);
-    float sum = 0.0F;
-    for (const Light& light : scene.lights) {
-        const float distance = std::max(glm::length(light.position_m - middle), nearest);
-        const float falloff = light.kind == LightKind::directional ? 1.0F : 1.0F / (distance * distance);
-        sum += luminance(light.intensity) * falloff;
-    }
-    return sum;
+/// What the light would send to a surface there that is turned to it, if nothing were in the way, by luminance.
+float metered_irradiance(const Light& light, const glm::vec3& point, float nearest) {
+    const float brightness = luminance(light.intensity);
+    if (light.kind == LightKind::directional) return brightness;
+    const glm::vec3 to_point = point - light.position_m;
+    const float distance = std::max(glm::length(to_point), nearest);
+    if (light.kind != LightKind::rectangle) return brightness / (distance * distance);
+    const float area = 4.0F * glm::length(glm::cross(light.half_u_m, light.half_v_m));
+    const float cosine = std::max(glm::dot(light.direction, to_point) / distance, 0.0F);
+    return brightness * area * cosine / (distance * distance);
 }
 
 void add_default_light(Scene& scene) {
@@ -34,7 +34,7 @@ void add_default_light(Scene& scene) {
     sun.kind = LightKind::directional;
     sun.direction = glm::normalize(glm::vec3(0.45F, -1.0F, -0.6F));
     sun.intensity = glm::vec3(2.25F, 2.2F, 2.1F);
-    scene.lights = {sun};
+    scene.lights.push_back(sun);
     scene.ambient_radiance = glm::vec3(0.25F);
     scene.background_radiance = glm::vec3(0.25F, 0.42F, 0.68F);
 }
@@ -82,12 +82,19 @@ Expected<Light> read_gltf_light(const GltfContext& context, int light, const glm
 }
 
 void expose_gltf_lights(Scene& scene, const Bounds& bounds) {
-    const float irradiance = metered_irradiance(scene, bounds);
-    if (!(irradiance > 0.0F)) return add_default_light(scene);
-    // A white diffuse surface has radiance irradiance / pi.
-    const float factor = kKeyRadiance * std::numbers::pi_v<float> / irradiance;
-    for (Light& light : scene.lights) light.intensity *= factor;
+    const float nearest = std::max(0.25F * bounds.radius(), 1e-3F);
+    float punctual = 0.0F;
+    float rectangles = 0.0F;
+    for (const Light& light : scene.lights)
+        (light.kind == LightKind::rectangle ? rectangles : punctual) +=
+            metered_irradiance(light, bounds.middle(), nearest);
+    if (!(punctual > 0.0F) && !(rectangles >= kLeastIrradiance)) return add_default_light(scene);
     scene.ambient_radiance = glm::vec3(0.04F);
+    if (!(punctual > 0.0F)) return;
+    // A white diffuse surface has radiance irradiance / pi.
+    const float factor = kKeyRadiance * std::numbers::pi_v<float> / punctual;
+    for (Light& light : scene.lights)
+        if (light.kind != LightKind::rectangle) light.intensity *= factor;
 }
 
 }  // namespace macula

@@ -4,7 +4,8 @@ target_link_libraries(macula_test_gltf PUBLIC macula_scenes nlohmann_json::nlohm
 macula_test(gltf_test
     SOURCES unit/gltf_mesh_test.cpp unit/gltf_scene_test.cpp unit/gltf_material_test.cpp
         unit/gltf_material_extension_test.cpp unit/gltf_animation_test.cpp unit/gltf_camera_test.cpp
-        unit/gltf_refusal_test.cpp unit/gltf_balloon_test.cpp property/gltf_accessor_test.cpp
+        unit/gltf_refusal_test.cpp unit/gltf_balloon_test.cpp unit/emissive_quads_test.cpp
+        property/gltf_accessor_test.cpp
     LINK macula_test_gltf
     LABELS fast)
 macula_test(animation_test SOURCES unit/animation_test.cpp LINK macula_scenes LABELS fast)
@@ -14,7 +15,7 @@ macula_test(bunny_box_test
     LINK macula_scenes
     LABELS fast)
 macula_test(gltf_fuzz_test
-    SOURCES fuzz/gltf_fuzz.cpp fuzz/gltf_fuzz_test.cpp
+    SOURCES fuzz/gltf_corpus.cpp fuzz/gltf_fuzz.cpp fuzz/gltf_fuzz_test.cpp
     LINK macula_test_gltf
     LABELS fast)
 macula_test(obj_fuzz_test SOURCES fuzz/obj_fuzz.cpp fuzz/obj_fuzz_test.cpp LINK macula_scenes LABELS fast)
