@@ -1,4 +1,4 @@
 macula_test(texture_test
-    SOURCES unit/texture_footprint_test.cpp unit/texture_levels_test.cpp unit/texture_lookup_test.cpp
+    SOURCES unit/environment_test.cpp unit/texture_footprint_test.cpp unit/texture_levels_test.cpp unit/texture_lookup_test.cpp
     LINK macula_tracer macula_kernels macula_scenes
     LABELS fast)
