@@ -22,6 +22,8 @@
 namespace macula {
 namespace {
 
+constexpr std::size_t kMostWarnings = 100;
+
 void warn_of_what_is_ignored(GltfContext& context) {
     const tinygltf::Model& model = context.document.model;
     const std::set<std::string> used(model.extensionsUsed.begin(), model.extensionsUsed.end());
@@ -153,6 +155,11 @@ Expected<LoadedScene> load(std::span<const std::uint8_t> bytes, const std::strin
     expose_gltf_lights(*scene, bounds);
     frame_start(*scene, bounds);
     scene->name = name;
+    if (context.warnings.size() > kMostWarnings) {
+        const std::size_t more = context.warnings.size() - kMostWarnings;
+        context.warnings.resize(kMostWarnings);
+        context.warnings.push_back(name + ": and " + std::to_string(more) + " warnings more");
+    }
     return LoadedScene{std::make_shared<const Scene>(std::move(*scene)), std::move(context.warnings)};
 }
 

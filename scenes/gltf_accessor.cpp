@@ -9,6 +9,8 @@
 namespace macula {
 namespace {
 
+constexpr std::size_t kMostZeros = std::size_t{1} << 22U;
+
 /// Equally spaced elements inside the bytes of a buffer view; all of them are known to lie inside.
 struct ElementArray {
     const std::uint8_t* first = nullptr;
@@ -161,6 +163,9 @@ Expected<const tinygltf::Accessor*> checked_accessor(GltfContext& context, int i
     if (accessor.count > context.elements_left)
         return context.error(element, "the scene has more than " + std::to_string(context.limits.elements) +
                                           " vertices and indices, which is the limit");
+    // A few bytes of JSON must not ask for gigabytes of zeros.
+    if (accessor.bufferView < 0 && accessor.count > kMostZeros)
+        return context.error(element, "has more than " + std::to_string(kMostZeros) + " elements and no data");
     context.elements_left -= accessor.count;
     return &accessor;
 }

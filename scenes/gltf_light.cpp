@@ -11,6 +11,8 @@ namespace macula {
 namespace {
 
 constexpr float kKeyRadiance = 0.8F;
+constexpr float kDark = 1e-20F;           // irradiance of lights that are as good as off
+constexpr float kMostIntensity = 1e30F;   // of one that is far away among near ones
 constexpr float kLeastIrradiance = 0.5F;  // of rectangles that need no sun
 
 float luminance(const glm::vec3& c) {
@@ -88,13 +90,14 @@ void expose_gltf_lights(Scene& scene, const Bounds& bounds) {
     for (const Light& light : scene.lights)
         (light.kind == LightKind::rectangle ? rectangles : punctual) +=
             metered_irradiance(light, bounds.middle(), nearest);
-    if (!(punctual > 0.0F) && !(rectangles >= kLeastIrradiance)) return add_default_light(scene);
+    if (!(punctual > kDark) && !(rectangles >= kLeastIrradiance)) return add_default_light(scene);
     scene.ambient_radiance = glm::vec3(0.04F);
-    if (!(punctual > 0.0F)) return;
+    if (!(punctual > kDark)) return;
     // A white diffuse surface has radiance irradiance / pi.
     const float factor = kKeyRadiance * std::numbers::pi_v<float> / punctual;
     for (Light& light : scene.lights)
-        if (light.kind != LightKind::rectangle) light.intensity *= factor;
+        if (light.kind != LightKind::rectangle)
+            light.intensity = glm::min(light.intensity * factor, glm::vec3(kMostIntensity));
 }
 
 }  // namespace macula

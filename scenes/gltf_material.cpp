@@ -9,15 +9,15 @@
 namespace macula {
 namespace {
 
-/// Copies a factor; an empty vector leaves the default. False if it has the wrong length or is not finite.
+/// Copies a factor, clamped to [0, `most`] with a warning; an empty vector leaves the default. False if it has the
+/// wrong length.
 template <class Vector>
-bool copy_factor(const std::vector<double>& from, Vector& to) {
+bool copy_factor(GltfContext& context, const std::string& element, const char* key, const std::vector<double>& from,
+                 float most, Vector& to) {
     if (from.empty()) return true;
     if (from.size() != static_cast<std::size_t>(Vector::length())) return false;
-    for (int i = 0; i < Vector::length(); ++i) {
-        to[i] = static_cast<float>(from[static_cast<std::size_t>(i)]);
-        if (!std::isfinite(to[i]) || to[i] < 0.0F) return false;
-    }
+    for (int i = 0; i < Vector::length(); ++i)
+        to[i] = clamp_factor(context, element, key, from[static_cast<std::size_t>(i)], {0.0F, most});
     return true;
 }
 
@@ -49,8 +49,11 @@ Expected<int> GltfMaterialReader::material(int gltf_material) {
 Expected<void> GltfMaterialReader::read(Material& to, const tinygltf::Material& from, const std::string& element) {
     const tinygltf::PbrMetallicRoughness& pbr = from.pbrMetallicRoughness;
     to.name = from.name;
-    if (!copy_factor(pbr.baseColorFactor, to.base_color) || !copy_factor(from.emissiveFactor, to.emissive))
-        return context_.error(element, "a colour factor is malformed or negative");
+    if (!copy_factor(context_, element, "baseColorFactor", pbr.baseColorFactor, 1.0F, to.base_color))
+        return context_.error(element, "baseColorFactor is not four numbers");
+    // glTF ends the emission at 1, too, but files that say more mean it.
+    if (!copy_factor(context_, element, "emissiveFactor", from.emissiveFactor, kMostEmission, to.emissive))
+        return context_.error(element, "emissiveFactor is not three numbers");
     to.metallic = clamp_factor(context_, element, "metallicFactor", pbr.metallicFactor, kShare);
     to.roughness = clamp_factor(context_, element, "roughnessFactor", pbr.roughnessFactor, kShare);
     to.normal_scale = static_cast<float>(from.normalTexture.scale);

@@ -12,7 +12,7 @@ namespace macula {
 namespace {
 
 void read_emissive_strength(GltfMembers& from, Material& to) {
-    to.emissive *= from.number("emissiveStrength", 1.0F, {0.0F, 1e9F});
+    to.emissive *= from.number("emissiveStrength", 1.0F, {0.0F, kMostEmission});
 }
 
 void read_ior(GltfMembers& from, Material& to) {
@@ -22,7 +22,7 @@ void read_ior(GltfMembers& from, Material& to) {
 
 void read_specular(GltfMembers& from, Material& to) {
     to.specular = from.number("specularFactor", 1.0F, kShare);
-    to.specular_color = from.color("specularColorFactor", glm::vec3(1.0F), kNotNegative);
+    to.specular_color = from.color("specularColorFactor", glm::vec3(1.0F), {0.0F, 1e6F});
     if (to.specular == 0.0F) return;
     to.specular_texture = from.texture("specularTexture", TextureCoding::linear);
     to.specular_color_texture = from.texture("specularColorTexture", TextureCoding::srgb);
@@ -54,6 +54,7 @@ void read_volume(GltfMembers& from, Material& to) {
     to.thickness_m = from.number("thicknessFactor", 0.0F, {0.0F, 1e9F});
     // The default is infinity, which is no number of JSON: the material's 0 stands for it.
     to.attenuation_distance_m = from.number("attenuationDistance", 0.0F, kNotNegative);
+    if (to.attenuation_distance_m > 0.0F) to.attenuation_distance_m = glm::max(to.attenuation_distance_m, 1e-6F);
     to.attenuation_color =
         glm::max(from.color("attenuationColor", glm::vec3(1.0F), kShare), glm::vec3(kDarkestAttenuation));
     if (to.thickness_m > 0.0F) to.thickness_texture = from.texture("thicknessTexture", TextureCoding::linear);

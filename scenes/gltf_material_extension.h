@@ -19,6 +19,9 @@ Expected<void> read_material_extensions(GltfContext& context, GltfTextureReader&
 /// Reflects 99.6 % at normal incidence.
 inline constexpr float kMirrorIor = 1000.0F;
 
+/// Largest emissive factor, and the largest strength that multiplies it.
+inline constexpr float kMostEmission = 1e9F;
+
 /// Smallest component of an attenuation colour, so that its logarithm is finite.
 inline constexpr float kDarkestAttenuation = 1e-6F;
 

@@ -30,6 +30,7 @@ Expected<std::vector<Element>> read_attribute(GltfContext& context, const tinygl
     const int accessor = attribute_accessor(primitive, name);
     if (accessor == -1) return std::vector<Element>();
     Expected<std::vector<Element>> values = read_accessor<Element>(context, accessor);
+    if (!values) values.error().message += " (" + element + ", " + name + ")";
     if (values && vertices != 0 && values->size() != vertices)
         return context.error(element, std::string(name) + " and POSITION differ in length");
     return values;
@@ -59,7 +60,10 @@ Expected<void> read_triangles(GltfContext& context, const tinygltf::Primitive& p
     std::vector<std::uint32_t> indices;
     if (primitive.indices != -1) {
         Expected<std::vector<std::uint32_t>> read = read_indices(context, primitive.indices);
-        if (!read) return tl::unexpected(read.error());
+        if (!read) {
+            read.error().message += " (" + element + ", indices)";
+            return tl::unexpected(read.error());
+        }
         indices = std::move(*read);
     } else {
         indices.resize(vertices);

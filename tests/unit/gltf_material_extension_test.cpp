@@ -174,6 +174,10 @@ TEST(GltfMaterialExtension, OutOfRangeIsClampedAndNamed) {
     m = load_with_warnings(core, {"metallicFactor", "roughnessFactor"})->materials[0];
     EXPECT_EQ(m.metallic, 1.0F);
     EXPECT_EQ(m.roughness, 0.0F);
+    core.material() = {{"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 2, 1}}}}, {"emissiveFactor", {-1, 2, 0}}};
+    m = load_with_warnings(core, {"baseColorFactor", "emissiveFactor"})->materials[0];
+    EXPECT_EQ(m.base_color, glm::vec4(1.0F));
+    EXPECT_EQ(m.emissive, glm::vec3(0, 2, 0));
 }
 
 TEST(GltfMaterialExtension, IorOfZeroIsAMirrorAtEveryAngle) {

@@ -57,6 +57,12 @@ const std::vector<Refusal>& refusals() {
              position_accessor(b)["count"] = 4000000000U;
          },
          "which is the limit"},
+        {"many zeros without data",
+         [](auto& b) {
+             position_accessor(b).erase("bufferView");
+             position_accessor(b)["count"] = 5000000;
+         },
+         "accessor 0: has more than 4194304 elements and no data"},
         {"empty accessor", [](auto& b) { position_accessor(b)["count"] = 0; }, "accessor 0: is empty"},
         {"view out of range", [](auto& b) { position_accessor(b)["bufferView"] = 77; },
          "buffer view 77 does not exist"},
@@ -72,7 +78,30 @@ const std::vector<Refusal>& refusals() {
              b.primitive()["attributes"]["POSITION"] =
                  b.template accessor<float>("VEC3", {0, kNan, 0, 1, 0, 0, 0, 1, 0});
          },
-         "NaN or infinity"},
+         "contains NaN or infinity (mesh 0, primitive 0, POSITION)"},
+        {"infinite position",
+         [](auto& b) {
+             b.primitive()["attributes"]["POSITION"] =
+                 b.template accessor<float>("VEC3", {0, 0, 0, std::numeric_limits<float>::infinity(), 0, 0, 0, 1, 0});
+         },
+         "contains NaN or infinity (mesh 0, primitive 0, POSITION)"},
+        {"NaN normal",
+         [](auto& b) {
+             b.primitive()["attributes"]["NORMAL"] = b.template accessor<float>("VEC3", {0, 0, 1, 0, 0, 1, kNan, 0, 1});
+         },
+         "contains NaN or infinity (mesh 0, primitive 0, NORMAL)"},
+        {"NaN coordinate",
+         [](auto& b) {
+             use_texture(b, encode_image("png", 1, 1, 3, {1, 2, 3}));
+             b.primitive()["attributes"]["TEXCOORD_0"] = b.template accessor<float>("VEC2", {0, 0, kNan, 0, 0, 1});
+         },
+         "contains NaN or infinity (mesh 0, primitive 0, TEXCOORD_0)"},
+        {"coordinate beyond reason",
+         [](auto& b) {
+             use_texture(b, encode_image("png", 1, 1, 3, {1, 2, 3}));
+             b.primitive()["attributes"]["TEXCOORD_0"] = b.template accessor<float>("VEC2", {0, 0, 1e9F, 0, 0, 1});
+         },
+         "TEXCOORD_0 goes beyond 1e6"},
         {"huge position",
          [](auto& b) {
              b.primitive()["attributes"]["POSITION"] =
@@ -88,7 +117,7 @@ const std::vector<Refusal>& refusals() {
          [](auto& b) {
              b.primitive()["indices"] = b.template accessor<float>("SCALAR", {0, 1, 2});
          },
-         "unsigned integers"},
+         "unsigned integers (mesh 0, primitive 0, indices)"},
         {"signed indices",
          [](auto& b) {
              b.primitive()["indices"] = b.template accessor<std::int16_t>("SCALAR", {0, 1, 2});
@@ -158,6 +187,11 @@ const std::vector<Refusal>& refusals() {
              b.node()["translation"] = {1e300, 0, 0};
          },
          "not finite"},
+        {"transform that leads beyond floats when multiplied",
+         [](auto& b) {
+             b.node()["scale"] = {1e25, 1e25, 1e25};
+         },
+         "the transforms lead beyond what a float can hold"},
         {"nothing to show",
          [](auto& b) {
              b.json["scenes"] = {{{"nodes", nlohmann::json::array()}}};
@@ -199,6 +233,12 @@ const std::vector<Refusal>& refusals() {
              b.material()["emissiveTexture"]["texCoord"] = 2;
          },
          "TEXCOORD_0 and TEXCOORD_1"},
+        {"transform of a texture beyond reason",
+         [](auto& b) {
+             use_texture(b, encode_image("png", 1, 1, 3, {1, 2, 3}));
+             b.material()["emissiveTexture"]["extensions"]["KHR_texture_transform"]["scale"] = {1e30, 1};
+         },
+         "material 0: KHR_texture_transform is malformed or beyond 1e6"},
         {"picture that is none",
          [](auto& b) {
              use_texture(b, {1, 2, 3});

@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <numbers>
+#include <numeric>
+#include <vector>
 
 #include "scenes/framing.h"
 #include "scenes/gltf.h"
@@ -119,6 +121,14 @@ TEST(GltfScene, SpotLight) {
     EXPECT_FLOAT_EQ(light.spot_cos_outer, std::cos(0.6F));
 }
 
+TEST(GltfScene, LightsOfAnyStrengthStayFinite) {
+    for (const double intensity : {1e-40, 1e-10, 1e30, 3e38}) {
+        const Expected<LoadedScene> loaded = load_valid(lit_triangle({{"type", "point"}, {"intensity", intensity}}));
+        ASSERT_TRUE(loaded) << loaded.error().message;
+        EXPECT_GE(loaded->scene->lights.size(), 1U);
+    }
+}
+
 TEST(GltfScene, ExposureMetersTheLights) {
     // A white surface that faces the light in the middle of the scene has radiance 0.8, whatever unit the file uses.
     for (const double intensity : {1.0, 100000.0}) {
@@ -205,6 +215,34 @@ TEST(GltfScene, SkinnedNodesAreShownUnskinnedAndNamed) {
     EXPECT_EQ(loaded->scene->instances.size(), 1U);
     ASSERT_EQ(loaded->warnings.size(), 1U);
     EXPECT_NE(loaded->warnings[0].find("node 0 (\"cat\"): is skinned"), std::string::npos) << loaded->warnings[0];
+}
+
+TEST(GltfScene, AFloodOfWarningsIsCutShort) {
+    GltfBuilder b = GltfBuilder::triangle();
+    for (int i = 0; i < 150; ++i) b.json["meshes"][0]["primitives"].push_back({{"attributes", {{"NORMAL", 0}}}});
+    const Expected<LoadedScene> loaded = load_valid(b);
+    ASSERT_TRUE(loaded) << loaded.error().message;
+    ASSERT_EQ(loaded->warnings.size(), 101U);
+    EXPECT_EQ(loaded->warnings.back(), "test.glb: and 50 warnings more");
+}
+
+TEST(GltfScene, OneMeshPlacedVeryOften) {
+    // 2000 nodes of a mesh of 40,000 triangles: the probes for a room look at boxes first.
+    GltfBuilder b = GltfBuilder::triangle();
+    std::vector<float> positions;
+    for (int i = 0; i < 40000; ++i)
+        for (const float x : {0.0F, 0.0F, 0.0F, 1.0F, 0.0F, 0.0F, 0.0F, 1.0F, 0.0F})
+            positions.push_back(x + 1e-4F * static_cast<float>(i));
+    b.primitive()["attributes"]["POSITION"] = b.accessor<float>("VEC3", positions);
+    for (int i = 1; i < 2000; ++i) b.json["nodes"].push_back({{"mesh", 0}, {"translation", {7 * i, 0, 5}}});
+    std::vector<int> roots(2000);
+    std::iota(roots.begin(), roots.end(), 0);
+    b.json["scenes"] = {{{"nodes", roots}}};
+    const Expected<LoadedScene> loaded = b.load();
+    ASSERT_TRUE(loaded) << loaded.error().message;
+    const Bounds bounds = world_bounds(*loaded->scene);
+    EXPECT_NEAR(bounds.high.x, 7.0F * 1999.0F + 1.0F + 4.0F, 0.01F) << "80 million vertices, by the mesh's box";
+    EXPECT_EQ(bounds.low, glm::vec3(0.0F));
 }
 
 TEST(GltfScene, AHundredThousandNodesDeep) {
