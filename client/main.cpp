@@ -81,6 +81,9 @@ Expected<void> present(Client& client, ClientSession& session, const DeviceThrea
     input.color = &received.color;
     input.depth = &received.depth;
     input.world_from_eye = frame.world_from_eye;
+    input.display_time_ns = frame.display_time_ns;
+    input.moving = frame.moving;
+    input.moving_map = &received.moving_map;
     for (std::size_t eye = 0; eye < kEyeCount; ++eye) input.sampling[eye] = &frame.sampling[eye];
     input.rank_tile = received.welcome->rank_tile;
     input.rank_tile_size_px = received.welcome->rank_tile_size_px;
@@ -88,7 +91,7 @@ Expected<void> present(Client& client, ClientSession& session, const DeviceThrea
     if (auto done = client.compositor->accumulate(input); !done) return done;
     times.accumulated_ns = now_ns();
     const Pose world_from_head = received.welcome->world_from_start * devices.newest_start_from_head();
-    if (auto done = client.compositor->show(eye_poses(client.headset, world_from_head), picture); !done) {
+    if (auto done = client.compositor->show(eye_poses(client.headset, world_from_head), now_ns(), picture); !done) {
         return done;
     }
     times.reprojected_ns = times.displayed_ns = now_ns();

@@ -50,7 +50,7 @@ Expected<double> measure_ms(Compositor& compositor, const NewFrame& frame) {
     for (int i = 0; i < 4; ++i) {
         const std::int64_t begin_ns = now_ns();
         if (auto done = compositor.accumulate(frame); !done) return tl::unexpected(done.error());
-        if (auto done = compositor.show(frame.world_from_eye, picture); !done) return tl::unexpected(done.error());
+        if (auto done = compositor.show(frame.world_from_eye, 0, picture); !done) return tl::unexpected(done.error());
         if (i > 0) best_ms = std::min(best_ms, static_cast<double>(now_ns() - begin_ns) * 1e-6);
     }
     return best_ms;

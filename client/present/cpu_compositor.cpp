@@ -8,6 +8,7 @@
 
 #include "client/present/cpu_rows.h"
 #include "client/present/make_compositor.h"
+#include "client/present/object_motion.h"
 #include "client/present/sampling_row.h"
 #include "client/present/view_warp.h"
 
@@ -32,7 +33,11 @@ struct RowScratch {
 class CpuCompositor final : public Compositor {
 public:
     CpuCompositor(const Display& display, const TaaWeights& weights)
-        : display_(display), weights_(weights), width_(display.eye_width_px), height_(display.eye_height_px) {
+        : display_(display),
+          weights_(weights),
+          width_(display.eye_width_px),
+          height_(display.eye_height_px),
+          motion_(display) {
         const auto pixels = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
         for (int eye = 0; eye < kEyeCount; ++eye) {
             hidden_[static_cast<std::size_t>(eye)] = hidden_pixels(display, static_cast<Eye>(eye));
@@ -49,6 +54,7 @@ public:
         std::swap(depth_before_.texels, depth_.texels);
         const PerEye<Pose> poses_before = std::exchange(world_from_eye_, frame.world_from_eye);
         depth_.texels = frame.depth->texels;
+        motion_.accept(frame, poses_before);
         PerEye<ViewWarp> warps;
         for (std::size_t eye = 0; eye < kEyeCount; ++eye) {
             warps[eye] = make_view_warp(view(eye, poses_before[eye]), view(eye, world_from_eye_[eye]));
@@ -60,7 +66,7 @@ public:
         return {};
     }
 
-    Expected<void> show(const PerEye<Pose>& world_from_eye, ColorImage& picture) override {
+    Expected<void> show(const PerEye<Pose>& world_from_eye, std::int64_t time_ns, ColorImage& picture) override {
         if (picture.width_px != stable_.width_px || picture.height_px != stable_.height_px) {
             picture = ColorImage(stable_.width_px, stable_.height_px);
         }
@@ -68,7 +74,8 @@ public:
         for (std::size_t eye = 0; eye < kEyeCount; ++eye) {
             warps[eye] = make_view_warp(view(eye, world_from_eye_[eye]), view(eye, world_from_eye[eye]));
         }
-        for_rows([&](std::size_t eye, int y, RowScratch&) { show_eye_row(eye, y, warps[eye], picture); });
+        const bool moves = motion_.place(world_from_eye, time_ns);
+        for_rows([&](std::size_t eye, int y, RowScratch&) { show_eye_row(eye, y, warps[eye], moves, picture); });
         return {};
     }
 
@@ -102,6 +109,12 @@ private:
         return {depth.texels.data() + static_cast<int>(eye) * width_ / kBlock_px, depth.width_px};
     }
 
+    [[nodiscard]] EyeSlots eye_slots(const std::vector<std::uint8_t>& slots, std::size_t eye,
+                                     std::span<const ViewWarp> warps) const {
+        return {slots.data() + static_cast<int>(eye) * width_ / kBlock_px, kEyeCount * width_ / kBlock_px,
+                warps.data()};
+    }
+
     void accumulate_eye_row(const NewFrame& frame, std::size_t eye, int y, const ViewWarp& warp, float continues,
                             RowScratch& scratch) {
         const int eye_x = static_cast<int>(eye) * width_;
@@ -123,13 +136,18 @@ private:
         row.low = scratch.box.low();
         row.high = scratch.box.high();
         row.depth_before = eye_depth(depth_before_, eye);
+        row.moves = motion_.accumulates();
+        if (row.moves) {
+            row.now = eye_slots(motion_.now(), eye, motion_.to_before(eye));
+            row.before = eye_slots(motion_.before(), eye, motion_.to_before(eye));
+        }
         row.history = before_[eye].data();
         row.history_out = after_[eye].data() + static_cast<std::ptrdiff_t>(y) * width_;
         row.color_out = stable_.row(y) + eye_x;
         accumulate_row(row);
     }
 
-    void show_eye_row(std::size_t eye, int y, const ViewWarp& warp, ColorImage& picture) const {
+    void show_eye_row(std::size_t eye, int y, const ViewWarp& warp, bool moves, ColorImage& picture) const {
         const int eye_x = static_cast<int>(eye) * width_;
         ShowRow row;
         row.y = y;
@@ -138,6 +156,12 @@ private:
         row.warp = warp;
         row.depth = eye_depth(depth_, eye);
         row.color = {stable_.texels.data() + eye_x, stable_.width_px};
+        row.moves = moves;
+        if (moves) {
+            row.now = eye_slots(motion_.now(), eye, motion_.from_shown(eye));
+            row.shown = eye_slots(motion_.shown(), eye, motion_.from_shown(eye));
+            row.shown_depth = motion_.shown_depth().data() + (row.shown.blocks - motion_.shown().data());
+        }
         row.hidden = hidden_row(eye, y).data();
         row.out = picture.row(y) + eye_x;
         show_row(row);
@@ -151,6 +175,7 @@ private:
     PerEye<std::vector<HistoryTexel>> before_;
     PerEye<std::vector<HistoryTexel>> after_;
     PerEye<Pose> world_from_eye_;
+    ObjectMotion motion_;
     InverseDepthImage depth_;
     InverseDepthImage depth_before_;
     ColorImage stable_;  ///< what accumulation made of the last frame

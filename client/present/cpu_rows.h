@@ -43,6 +43,13 @@ private:
     std::vector<std::uint32_t> high_;
 };
 
+/// One eye's blocks of slots (taa_kernel.h), laid out as its depth, and their warps.
+struct EyeSlots {
+    const std::uint8_t* blocks = nullptr;
+    int stride = 0;
+    const kernels::ViewWarp* warps = nullptr;  ///< by slot
+};
+
 /// What accumulate_row() reads and writes: rows of the new picture, whole planes of the one before.
 struct AccumulateRow {
     int y = 0;
@@ -58,6 +65,9 @@ struct AccumulateRow {
     const std::uint32_t* low = nullptr;
     const std::uint32_t* high = nullptr;
     EyeDepth depth_before;
+    bool moves = false;  ///< whether the following are given
+    EyeSlots now;
+    EyeSlots before;  ///< its warps are those of `now`
     const HistoryTexel* history = nullptr;
     HistoryTexel* history_out = nullptr;
     Rgba8* color_out = nullptr;
@@ -72,6 +82,10 @@ struct ShowRow {
     kernels::ViewWarp warp;  ///< from what is shown to what is there
     EyeDepth depth;
     EyeColor color;
+    bool moves = false;                    ///< whether the following are given
+    EyeSlots now;                          ///< of the frame, with warps from what is shown
+    EyeSlots shown;                        ///< of what is shown
+    const float* shown_depth = nullptr;    ///< laid out as `shown.blocks`
     const std::uint8_t* hidden = nullptr;  ///< pixels of the row that the lens never shows
     Rgba8* out = nullptr;
 };

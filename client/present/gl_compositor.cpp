@@ -7,6 +7,7 @@
 #include <glm/vec2.hpp>
 
 #include "client/present/make_compositor.h"
+#include "client/present/object_motion.h"
 #include "client/present/view_warp.h"
 #include "kernel_text/taa_accumulate.h"
 #include "kernel_text/taa_buffers.h"
@@ -30,7 +31,8 @@ struct Parameters {
     std::array<EyeParameters, kEyeCount> eyes;
     glm::ivec4 size;
     kernels::TaaWeights weights;
-    std::array<float, 2> padding;
+    std::int32_t moves;
+    float padding;
 };
 static_assert(sizeof(Parameters) == 2 * 64 + 16 + 32);
 
@@ -52,7 +54,8 @@ public:
           display_(display),
           weights_(weights),
           width_(display.eye_width_px),
-          height_(display.eye_height_px) {
+          height_(display.eye_height_px),
+          motion_(display) {
         std::vector<std::uint8_t> hidden = hidden_pixels(display, kLeftEye);
         const std::vector<std::uint8_t> right = hidden_pixels(display, kRightEye);
         hidden.insert(hidden.end(), right.begin(), right.end());
@@ -66,6 +69,10 @@ public:
         const std::vector<float> nothing(pixels / (kBlock_px * kBlock_px), 0.0F);
         depth_.write(nothing);
         depth_before_.write(nothing);
+        // What is never read while nothing moves must be there all the same.
+        slots_.write(std::vector<std::uint32_t>(1));
+        shown_depth_.write(std::vector<float>(1));
+        warps_.write(std::vector<kernels::ViewWarp>(1));
     }
 
     Expected<void> accumulate(const NewFrame& frame) override {
@@ -76,6 +83,12 @@ public:
         const PerEye<Pose> poses_before = std::exchange(world_from_eye_, frame.world_from_eye);
         const bool continues = std::exchange(has_history_, true) && frame.continues;
         Parameters parameters = parameters_for(world_from_eye_, poses_before);
+        motion_.accept(frame, poses_before);
+        if (motion_.accumulates()) {
+            parameters.moves = 1;
+            write_slots(motion_.before(), {});
+            write_warps(motion_.to_before(0), motion_.to_before(1));
+        }
         parameters.size.z = frame.rank_tile_size_px;
         parameters.size.w = continues ? 1 : 0;
         std::vector<std::uint32_t> counts;
@@ -100,19 +113,31 @@ public:
         stable_.bind(7);
         ranks_.bind(8);
         counts_.bind(9);
+        slots_.bind(10);
+        warps_.bind(12);
         dispatch(accumulate_);
         return {};
     }
 
-    Expected<void> show(const PerEye<Pose>& world_from_eye, ColorImage& picture) override {
+    Expected<void> show(const PerEye<Pose>& world_from_eye, std::int64_t time_ns, ColorImage& picture) override {
         const auto current = CurrentContext::enter(*context_);
         if (!current) return tl::unexpected(current.error());
-        parameters_.write(parameters_for(world_from_eye, world_from_eye_));
+        Parameters parameters = parameters_for(world_from_eye, world_from_eye_);
+        if (motion_.place(world_from_eye, time_ns)) {
+            parameters.moves = 1;
+            write_slots({}, motion_.shown());
+            write_warps(motion_.from_shown(0), motion_.from_shown(1));
+            shown_depth_.write(motion_.shown_depth());
+        }
+        parameters_.write(parameters);
         parameters_.bind(0);
         stable_.bind(1);
         depth_.bind(2);
         hidden_.bind(3);
         picture_.bind(7);
+        slots_.bind(10);
+        shown_depth_.bind(11);
+        warps_.bind(12);
         dispatch(show_);
         if (picture.width_px != 2 * width_ || picture.height_px != height_) picture = ColorImage(2 * width_, height_);
         return picture_.read([&](std::span<const Rgba8> pixels) { std::ranges::copy(pixels, picture.texels.begin()); });
@@ -133,6 +158,19 @@ private:
         parameters.size = glm::ivec4(width_, height_, 0, 0);
         parameters.weights = weights_;
         return parameters;
+    }
+    /// A word for each block: slots of the new frame, and those of the others that are given.
+    void write_slots(std::span<const std::uint8_t> before, std::span<const std::uint8_t> shown) {
+        const std::vector<std::uint8_t>& now = motion_.now();
+        std::vector<std::uint32_t> words(now.begin(), now.end());
+        for (std::size_t i = 0; i < before.size(); ++i) words[i] |= std::uint32_t{before[i]} << 8;
+        for (std::size_t i = 0; i < shown.size(); ++i) words[i] |= std::uint32_t{shown[i]} << 16;
+        slots_.write(words);
+    }
+    void write_warps(std::span<const kernels::ViewWarp> left, std::span<const kernels::ViewWarp> right) {
+        std::vector<kernels::ViewWarp> warps(left.begin(), left.end());
+        warps.insert(warps.end(), right.begin(), right.end());
+        warps_.write(warps);
     }
     void dispatch(const ComputeProgram& program) const {
         program.dispatch(static_cast<unsigned>(width_ + 15) / 16, static_cast<unsigned>(height_ + 7) / 8, kEyeCount);
@@ -156,6 +194,10 @@ private:
     StorageBuffer<Rgba8> picture_{*context_};
     StorageBuffer<std::uint32_t> ranks_{*context_};
     StorageBuffer<std::uint32_t> counts_{*context_};
+    StorageBuffer<std::uint32_t> slots_{*context_};
+    StorageBuffer<float> shown_depth_{*context_};
+    StorageBuffer<kernels::ViewWarp> warps_{*context_};
+    ObjectMotion motion_;
     PerEye<Pose> world_from_eye_;
     bool has_history_ = false;
 };

@@ -30,10 +30,19 @@ void main() {
 
     float px = float(x) + 0.5;
     float py = float(y) + 0.5;
-    Landing landing = land(eyes[eye].warp, px, py, depth[depth_index(px, py)]);
+    int slot = 0;
+    if (moves != 0) slot = now_slot(depth_index(px, py));
+    ViewWarp warp = eyes[eye].warp;
+    if (slot != 0) warp = slot_warp(slot);
+    float here = depth[depth_index(px, py)];
+    Landing landing = land(warp, px, py, here);
     Footprint taps = footprint(landing.x, landing.y, size.x, size.y);
     float trust = float(size.w) * history_trust(weights, landing, taps, depth_before[depth_index(landing.x, landing.y)],
                                                 size.x, size.y);
+    if (moves != 0) {
+        int seen = before_slot(depth_index(landing.x, landing.y));
+        if (seen != slot) trust *= same_place(seen, landing.x, landing.y, land(slot_warp(seen), px, py, here));
+    }
     int at = (eye * size.y + taps.y) * size.x + taps.x;
     vec4 known = bilinear(history_at(at), history_at(at + 1), history_at(at + size.x), history_at(at + size.x + 1),
                           taps.right, taps.lower);

@@ -10,6 +10,7 @@ layout(std430, binding = 0) readonly buffer Parameters {
     EyeParameters eyes[2];
     ivec4 size;        // width and height of an eye, edge of the rank tile, whether there is a history
     TaaWeights weights;
+    int moves;         // whether Slots, ShownDepth and Warps hold something
 };
 layout(std430, binding = 1) readonly buffer Color { uint color[]; };           // accumulation: new; showing: stable
 layout(std430, binding = 2) readonly buffer Depth { float depth[]; };
@@ -20,6 +21,9 @@ layout(std430, binding = 6) writeonly buffer HistoryOut { uvec2 history_out[]; }
 layout(std430, binding = 7) writeonly buffer ColorOut { uint color_out[]; };
 layout(std430, binding = 8) readonly buffer Ranks { uint ranks[]; };           // four pixels a word
 layout(std430, binding = 9) readonly buffer Counts { uint counts[]; };         // samples of each tile
+layout(std430, binding = 10) readonly buffer Slots { uint slots[]; };          // now, before and shown, a byte each
+layout(std430, binding = 11) readonly buffer ShownDepth { float shown_depth[]; };
+layout(std430, binding = 12) readonly buffer Warps { ViewWarp warps[]; };      // by eye and slot
 
 int eye_x() {
     return int(gl_WorkGroupID.z) * size.x;
@@ -29,6 +33,18 @@ int color_index(int x, int y) {
 }
 int depth_index(float x, float y) {
     return eye_x() / kBlock_px + depth_block(x, y, size.x, size.y, 2 * size.x / kBlock_px);
+}
+int now_slot(int block) {
+    return int(slots[block] & 255U);
+}
+int before_slot(int block) {
+    return int((slots[block] >> 8) & 255U);
+}
+int shown_slot(int block) {
+    return int((slots[block] >> 16) & 255U);
+}
+ViewWarp slot_warp(int slot) {
+    return warps[int(gl_WorkGroupID.z) * kSlots + slot];
 }
 bool is_hidden(int x, int y) {
     int pixel = (int(gl_WorkGroupID.z) * size.y + y) * size.x + x;

@@ -153,6 +153,33 @@ KERNEL float history_trust(KERNEL_IN(TaaWeights) weights, KERNEL_IN(Landing) lan
     return trust * (1.0F - weights.moving_loss * blur);
 }
 
+// Motion of its own. Each block has a *slot*: 0 where what is seen there is still, otherwise the number of a moving
+// object in the frame, and the pixels of each slot have a warp of their own. In a block of the frame before, kGoneSlot
+// stands for an object that the new frame does not show.
+const int kSlots = 256;
+const int kGoneSlot = 255;
+
+/// Landings of a moving and of another surface that differ by more are different places. Unlike depths, places of
+/// objects have no error that would have to be allowed for.
+const float kSamePlace_px = 0.25F;
+
+/// 1 where what was seen at a pixel's landing (x, y) may be the surface that is looked for although its slot, `seen`,
+/// is another: by that object's motion the pixel would have come from the same place, `as_seen`. 0 is a contradiction.
+KERNEL float same_place(int seen, float x, float y, KERNEL_IN(Landing) as_seen) {
+    float difference_px = max(abs(x - as_seen.x), abs(y - as_seen.y));
+    return seen != kGoneSlot && difference_px <= kSamePlace_px ? 1.0F : 0.0F;
+}
+
+// Late reprojection among moving objects. Which surface is seen at a pixel of what is shown is only known where it
+// comes from. The still one is looked for first, then the object that may have come to lie there (`shown`): it is seen
+// if its own motion leads back into it and it is not behind what is still. What lay behind an object before it moved on
+// was never seen: there, the object's motion leads beyond its edge, and what is seen beside it stands in.
+
+/// Whether an object at inverse depth `here` is seen before what the still landing found in a block of slot `there`.
+KERNEL bool in_sight(float here, int there, float still_here) {
+    return there != 0 || here >= still_here;
+}
+
 /// Mean of what is new and what was known, weighted by precision (the static case of a Kalman filter), after the
 /// history was brought into the box [low - slack, high + slack] of the colours around the new pixel. A new pixel of
 /// precision 0 is one that the lens never shows: it is taken as it is, and not believed later.

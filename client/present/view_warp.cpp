@@ -6,14 +6,15 @@
 
 namespace macula {
 
-kernels::ViewWarp make_view_warp(const EyeView& to, const EyeView& from) {
+kernels::ViewWarp make_view_warp(const EyeView& to, const EyeView& from, const glm::dmat4x3& to_from_moved) {
     // In double: rotations between frames are small differences of large numbers in the corners.
     const glm::dquat world_from_to(to.world_from_eye.orientation);
     const glm::dquat world_from_from(from.world_from_eye.orientation);
-    const glm::dquat to_from_world = glm::conjugate(world_from_to);
-    const glm::dmat3 rotation = glm::mat3_cast(glm::normalize(to_from_world * world_from_from));
-    const glm::dvec3 translation_m =
-        to_from_world * (glm::dvec3(from.world_from_eye.position_m) - glm::dvec3(to.world_from_eye.position_m));
+    const glm::dmat3 to_from_world = glm::mat3_cast(glm::conjugate(glm::normalize(world_from_to)));
+    const glm::dmat3 linear =
+        to_from_world * glm::dmat3(to_from_moved) * glm::mat3_cast(glm::normalize(world_from_from));
+    const glm::dvec3 translation_m = to_from_world * (to_from_moved * glm::dvec4(from.world_from_eye.position_m, 1.0) -
+                                                      glm::dvec3(to.world_from_eye.position_m));
 
     // (x, y, 1) in pixels to a direction with z = -1. GLM's constructor takes columns.
     const Tangents& f = from.tangents;
@@ -28,7 +29,7 @@ kernels::ViewWarp make_view_warp(const EyeView& to, const EyeView& from) {
                                       0.0, -y_scale, 0.0,  //
                                       t.left * x_scale, -t.top * y_scale, -1.0);
 
-    const glm::dmat3 homography = pixel_from_point * rotation * direction_from_pixel;
+    const glm::dmat3 homography = pixel_from_point * linear * direction_from_pixel;
     const glm::dvec3 parallax = pixel_from_point * translation_m;
     const auto row = [&](int i) {
         return glm::vec4(homography[0][i], homography[1][i], homography[2][i], parallax[i]);

@@ -1,6 +1,9 @@
 #include "client/stream/frame_decoder.h"
 
+#include <algorithm>
 #include <utility>
+
+#include "protocol/message/byte_map.h"
 
 namespace macula {
 
@@ -27,9 +30,27 @@ Expected<void> FrameDecoder::decode(ReceivedFrame& frame) {
                                              std::to_string(width_px_) + "x" + std::to_string(height_px_) +
                                              " was asked for");
     }
+    if (auto moving_map = decode_moving_map(frame); !moving_map) return moving_map;
     needs_keyframe_ = false;
     coded.color.clear();
     coded.depth.clear();
+    coded.moving_map.clear();
+    return {};
+}
+
+Expected<void> FrameDecoder::decode_moving_map(ReceivedFrame& frame) const {
+    frame.moving_map = {};
+    if (frame.frame.moving.empty()) return {};
+    auto map = unpack_map(frame.frame.moving_map, frame.depth.texels.size());
+    if (!map) return fail(ErrorCode::protocol, "Frame.moving_map: " + map.error().message);
+    const int largest = *std::ranges::max_element(*map);
+    if (static_cast<std::size_t>(largest) > frame.frame.moving.size()) {
+        return fail(ErrorCode::protocol, "Frame.moving_map: names object " + std::to_string(largest) + " of " +
+                                             std::to_string(frame.frame.moving.size()));
+    }
+    frame.moving_map.width_px = frame.depth.width_px;
+    frame.moving_map.height_px = frame.depth.height_px;
+    frame.moving_map.texels = std::move(*map);
     return {};
 }
 

@@ -18,6 +18,8 @@ struct ReceivedFrame {
     std::size_t bytes = 0;    ///< of the message
     ColorImage color;         ///< both eyes side by side
     InverseDepthImage depth;  ///< one value for each 4x4 block of `color`: its nearest surface
+    /// Which of Frame::moving is seen in each of these blocks: 0, or its index + 1; empty if none moves.
+    Image<std::uint8_t> moving_map;
     std::int64_t received_ns = 0;
     std::int64_t decoded_ns = 0;
     std::uint64_t connection = 0;  ///< counts connections: frames of different ones share no history
@@ -31,11 +33,13 @@ public:
     /// Errors: `option` when libavcodec has no decoder of that name.
     static Expected<FrameDecoder> make(const std::string& codec, int width_px, int height_px);
 
-    /// Decodes `frame.frame` into `frame.color` and `frame.depth`. Errors: `protocol`, also while a keyframe is
-    /// waited for.
+    /// Decodes `frame.frame` into `frame.color`, `frame.depth` and `frame.moving_map`. Errors: `protocol`, also while a
+    /// keyframe is waited for.
     Expected<void> decode(ReceivedFrame& frame);
 
 private:
+    Expected<void> decode_moving_map(ReceivedFrame& frame) const;
+
     FrameDecoder(std::unique_ptr<VideoDecoder> color, std::unique_ptr<DepthDecoder> depth, int width_px, int height_px)
         : color_(std::move(color)), depth_(std::move(depth)), width_px_(width_px), height_px_(height_px) {}
 

@@ -73,7 +73,7 @@ Expected<void> FrameMaker::reconstruct(Picture& picture) {
         Samples& samples = samples_[eye];
         // Reprojection moves what is seen, not the surface that it is seen in.
         if (parts_.image_depth) samples.inverse_depth_per_m.swap(samples.image_inverse_depth_per_m);
-        const auto done = parts_.reconstructor->reconstruct(plans_[eye], samples, target);
+        auto done = parts_.reconstructor->reconstruct(plans_[eye], samples, target);
         if (parts_.image_depth) samples.inverse_depth_per_m.swap(samples.image_inverse_depth_per_m);
         if (!done) return done;
     }

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <random>
+#include <vector>
 
 #include <benchmark/benchmark.h>
 #include <oneapi/tbb/global_control.h>
@@ -21,6 +22,8 @@ struct Input {
     ColorImage color;
     InverseDepthImage depth;
     EyeSamplingMessage sampling;
+    std::vector<MovingObject> moving;
+    Image<std::uint8_t> moving_map;
 
     explicit Input(const char* name) : display(*load_display(name)) {
         const int width = display.eye_width_px;
@@ -36,6 +39,23 @@ struct Input {
             sampling.level.push_back(static_cast<std::uint8_t>(1 + random() % kFullLevel));
         }
     }
+    /// Three objects cover this share of the blocks, as a band across the picture.
+    void move(double share) {
+        for (std::uint32_t id = 1; id <= 3; ++id) {
+            MovingObject object;
+            object.id = id;
+            object.world_from_object[3].z = -2.0F;
+            object.velocity_per_s[3].x = 0.5F;
+            moving.push_back(object);
+        }
+        moving_map = Image<std::uint8_t>(depth.width_px, depth.height_px);
+        const int rows = static_cast<int>(share * moving_map.height_px);
+        for (int y = 0; y < rows; ++y) {
+            for (int x = 0; x < moving_map.width_px; ++x) {
+                moving_map.at(x, y + (moving_map.height_px - rows) / 2) = static_cast<std::uint8_t>(1 + x / 20 % 3);
+            }
+        }
+    }
     [[nodiscard]] PerEye<Pose> poses(int step) const {
         const float t = 0.01F * static_cast<float>(step % 100);
         const Pose head{glm::angleAxis(0.3F * t, glm::vec3(0.1F, 0.99F, 0.0F)), glm::vec3(0.2F * t, 0.0F, 0.1F * t)};
@@ -49,32 +69,42 @@ struct Input {
         frame.sampling = {&sampling, &sampling};
         frame.rank_tile = rank_tile.rank;
         frame.rank_tile_size_px = RankTile::kEdge_px;
+        frame.moving = moving;
+        frame.moving_map = &moving_map;
         return frame;
     }
 };
 
-void accumulate(benchmark::State& state, const char* display) {
+/// `moving_share` of the picture moves by itself; 0: the scene is still.
+void accumulate(benchmark::State& state, const char* display, double moving_share) {
     const oneapi::tbb::global_control one_thread(oneapi::tbb::global_control::max_allowed_parallelism, 1);
-    const Input input(display);
+    Input input(display);
+    if (moving_share > 0.0) input.move(moving_share);
     const auto compositor = make_cpu_compositor(input.display, default_taa_weights());
     int step = 0;
     for (auto _ : state) benchmark::DoNotOptimize(compositor->accumulate(input.frame(step++)).has_value());
 }
 
-void reproject(benchmark::State& state, const char* display) {
+void reproject(benchmark::State& state, const char* display, double moving_share) {
     const oneapi::tbb::global_control one_thread(oneapi::tbb::global_control::max_allowed_parallelism, 1);
-    const Input input(display);
+    Input input(display);
+    if (moving_share > 0.0) input.move(moving_share);
     const auto compositor = make_cpu_compositor(input.display, default_taa_weights());
     static_cast<void>(compositor->accumulate(input.frame(0)));
     ColorImage picture;
     int step = 0;
-    for (auto _ : state) benchmark::DoNotOptimize(compositor->show(input.poses(1 + step++ % 4), picture).has_value());
+    for (auto _ : state)
+        benchmark::DoNotOptimize(compositor->show(input.poses(1 + step++ % 4), 10'000'000, picture).has_value());
 }
 
-BENCHMARK_CAPTURE(accumulate, desktop, "desktop")->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(reproject, desktop, "desktop")->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(accumulate, vive, "vive")->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(reproject, vive, "vive")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(accumulate, desktop, "desktop", 0.0)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(reproject, desktop, "desktop", 0.0)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(accumulate, vive, "vive", 0.0)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(reproject, vive, "vive", 0.0)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(accumulate, vive_a_tenth_moving, "vive", 0.1)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(reproject, vive_a_tenth_moving, "vive", 0.1)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(accumulate, vive_all_moving, "vive", 1.0)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(reproject, vive_all_moving, "vive", 1.0)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace macula

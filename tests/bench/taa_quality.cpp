@@ -133,7 +133,7 @@ Quality judge(const Display& display, const std::vector<Made>& frames, const Taa
     ColorImage before;
     for (const Made& made : frames) {
         static_cast<void>(compositor->accumulate(made.frame));
-        static_cast<void>(compositor->show(made.frame.world_from_eye, picture));
+        static_cast<void>(compositor->show(made.frame.world_from_eye, 0, picture));
         for (int y = 0; y < display.eye_height_px; ++y) {
             for (int x = 0; x < display.eye_width_px; ++x) {
                 if (hidden[static_cast<std::size_t>(y * display.eye_width_px + x)] != 0) continue;

@@ -78,7 +78,7 @@ protected:
         ASSERT_TRUE(compositor_->accumulate(frame));
     }
     const ColorImage& show(const Pose& pose) {
-        EXPECT_TRUE(compositor_->show({pose, pose}, picture_));
+        EXPECT_TRUE(compositor_->show({pose, pose}, 0, picture_));
         return picture_;
     }
     [[nodiscard]] bool traced(int x, int y) const {

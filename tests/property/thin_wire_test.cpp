@@ -52,7 +52,7 @@ protected:
         const auto compositor = make_cpu_compositor(display_, weights);
         for (int i = 0; i < 40; ++i) static_cast<void>(compositor->accumulate(view.frame(i, {})));
         ColorImage picture;
-        static_cast<void>(compositor->show({Pose{}, Pose{}}, picture));
+        static_cast<void>(compositor->show({Pose{}, Pose{}}, 0, picture));
         const auto wires = find_wires(view.plan, test::reference_picture(view.view({})));
         EXPECT_GT(wires.size(), 50U);
         double sum = 0.0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <memory>
 #include <optional>
 
@@ -21,7 +22,11 @@ namespace macula::test {
 struct Seen {
     glm::vec3 color{0.0F};  ///< display coding, 0..1
     float inverse = 0.0F;
+    std::uint32_t object = 0;  ///< id, where it matters
 };
+
+/// A scene as a function of the ray's origin and direction.
+using SceneRay = std::function<Seen(const glm::vec3& from, const glm::vec3& along)>;
 
 inline float lattice_noise(int x, int y) {
     auto h = static_cast<std::uint32_t>(x) * 0x9e3779b1U ^ static_cast<std::uint32_t>(y) * 0x85ebca77U;
@@ -83,21 +88,21 @@ inline Rgba8 coded(const glm::vec3& color) {
 }
 
 /// What a ray through the place (x, y) of a picture sees; `inverse` is the inverse depth.
-inline Seen see(const EyeView& view, float x, float y) {
+inline Seen see(const SceneRay& scene, const EyeView& view, float x, float y) {
     const Tangents& t = view.tangents;
     const glm::vec3 direction(t.left + x / static_cast<float>(view.width_px) * (t.right - t.left),
                               t.top - y / static_cast<float>(view.height_px) * (t.top - t.bottom), -1.0F);
-    return moving_scene(view.world_from_eye.position_m, view.world_from_eye.direction(direction));
+    return scene(view.world_from_eye.position_m, view.world_from_eye.direction(direction));
 }
 
 /// The picture with 16 rays a pixel, averaged as the display shows it.
-inline ColorImage reference_picture(const EyeView& view) {
+inline ColorImage reference_picture(const EyeView& view, const SceneRay& scene = moving_scene) {
     ColorImage picture(view.width_px, view.height_px);
     tbb::parallel_for(0, view.height_px, [&](int y) {
         for (int x = 0; x < view.width_px; ++x) {
             glm::vec3 sum(0.0F);
             for (int i = 0; i < 16; ++i) {
-                sum += see(view, static_cast<float>(x) + (static_cast<float>(i % 4) + 0.5F) / 4.0F,
+                sum += see(scene, view, static_cast<float>(x) + (static_cast<float>(i % 4) + 0.5F) / 4.0F,
                            static_cast<float>(y) + (static_cast<float>(i / 4) + 0.5F) / 4.0F)
                            .color;
             }
@@ -107,7 +112,7 @@ inline ColorImage reference_picture(const EyeView& view) {
     return picture;
 }
 
-/// Makes frames of the moving scene as a server would: plan, one ray a sample, reconstruction, nearest depth of each
+/// Makes frames of a scene as a server would: plan, one ray a sample, reconstruction, nearest depth of each
 /// 4x4 block in 8-bit codes. One eye, shown to both; no video coding.
 class FoveatedView {
 public:
@@ -119,7 +124,7 @@ public:
                    share ? std::optional(solve_law(display, kLeftEye, *share)) : std::optional<AcuityLaw>(), tables_),
           reconstructor_(make_cpu_reconstructor(tables_)) {
         color = ColorImage(2 * display.eye_width_px, display.eye_height_px);
-        full_depth_ = InverseDepthImage(color.width_px, color.height_px);
+        full_depth = InverseDepthImage(color.width_px, color.height_px);
         depth = InverseDepthImage(color.width_px / 4, color.height_px / 4);
     }
 
@@ -133,25 +138,27 @@ public:
         const auto r2 = [&](double step) { return static_cast<int>(64.0 * (index * step - std::floor(index * step))); };
         sampler_.plan({gaze, glm::ivec2(r2(0.7548776662466927), r2(0.5698402909980532))}, plan);
         const EyeView from = view(world_from_eye);
-        samples_.color.assign(plan.address_count(), 0xFF000000U);
-        samples_.inverse_depth_per_m.assign(plan.address_count(), -1.0F);
+        samples.color.assign(plan.address_count(), 0xFF000000U);
+        samples.inverse_depth_per_m.assign(plan.address_count(), -1.0F);
+        samples.object_id.assign(plan.address_count(), 0);
         tbb::parallel_for(std::size_t{0}, plan.trace_order.size(), [&](std::size_t i) {
             const std::uint32_t address = plan.trace_order[i];
             const SamplePosition at = plan.position[address];
-            const Seen seen = see(from, static_cast<float>(at.x_px) + 0.5F, static_cast<float>(at.y_px) + 0.5F);
-            samples_.color[address] = coded(seen.color);
-            samples_.inverse_depth_per_m[address] = seen.inverse;
+            const Seen seen = see(scene, from, static_cast<float>(at.x_px) + 0.5F, static_cast<float>(at.y_px) + 0.5F);
+            samples.color[address] = coded(seen.color);
+            samples.inverse_depth_per_m[address] = seen.inverse;
+            samples.object_id[address] = seen.object;
         });
         const auto stride = static_cast<std::size_t>(color.width_px);
-        static_cast<void>(reconstructor_->reconstruct(
-            plan, samples_, {color.texels.data(), stride, full_depth_.texels.data(), stride}));
+        static_cast<void>(reconstructor_->reconstruct(plan, samples,
+                                                      {color.texels.data(), stride, full_depth.texels.data(), stride}));
         for (int y = 0; y < color.height_px; ++y) {
             std::copy_n(color.row(y), display_.eye_width_px, color.row(y) + display_.eye_width_px);
-            std::copy_n(full_depth_.row(y), display_.eye_width_px, full_depth_.row(y) + display_.eye_width_px);
+            std::copy_n(full_depth.row(y), display_.eye_width_px, full_depth.row(y) + display_.eye_width_px);
         }
         constexpr float kNear_m = 0.5F;
         codes_.resize(depth.texels.size());
-        nearest_depth_codes(full_depth_, kNear_m, codes_.data(), depth.width_px);
+        nearest_depth_codes(full_depth, kNear_m, codes_.data(), depth.width_px);
         for (std::size_t i = 0; i < codes_.size(); ++i) depth.texels[i] = inverse_depth_of(codes_[i], kNear_m);
 
         sampling_.phase_px = plan.phase_px;
@@ -172,17 +179,18 @@ public:
         return made;
     }
 
-    ColorImage color;         ///< of the last frame
-    InverseDepthImage depth;  ///< of the last frame, by blocks
-    SamplePlan plan;          ///< of the last frame
+    ColorImage color;              ///< of the last frame
+    InverseDepthImage depth;       ///< of the last frame, by blocks
+    SamplePlan plan;               ///< of the last frame
+    Samples samples;               ///< of the last frame
+    InverseDepthImage full_depth;  ///< of the last frame, by pixels
+    SceneRay scene = moving_scene;
 
 private:
     Display display_;
     std::shared_ptr<const TileTables> tables_;
     TileSampler sampler_;
     std::unique_ptr<Reconstructor> reconstructor_;
-    Samples samples_;
-    InverseDepthImage full_depth_;
     std::vector<std::uint8_t> codes_;
     EyeSamplingMessage sampling_;
 };

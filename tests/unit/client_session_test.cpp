@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "client/stream/backoff.h"
+#include "protocol/message/byte_map.h"
 #include "tests/support/fake_server.h"
 
 namespace macula {
@@ -96,6 +97,45 @@ TEST(ClientSession, TracksGoOutAndFramesComeIn) {
     EXPECT_EQ(report_there.get().displayed_ns, 3);
     trial.session.stop();
     EXPECT_FALSE(trial.session.error());
+}
+
+TEST(ClientSession, MapsOfWhatMovesAreUnpackedAndChecked) {
+    constexpr std::size_t kBlocks = std::size_t{2} * FakeConnection::kEye_px / 4 * FakeConnection::kEye_px / 4;
+    std::promise<FrameReport> too_short;
+    std::promise<FrameReport> too_high;
+    Trial trial({[&](FakeConnection& server) {
+        server.welcome();
+        const auto send = [&](std::uint64_t id, std::size_t blocks, std::uint8_t slot) {
+            Frame frame = server.make_frame(id, 120, true);
+            frame.moving.resize(2);
+            frame.moving[1].id = 1;
+            std::vector<std::uint8_t> map(blocks);
+            map[5] = slot;
+            frame.moving_map = pack_map(map);
+            server.send(frame);
+        };
+        send(1, kBlocks - 1, 2);
+        if (const auto report = server.expect<FrameReport>()) too_short.set_value(*report);
+        send(2, kBlocks, 3);
+        if (const auto report = server.expect<FrameReport>()) too_high.set_value(*report);
+        send(3, kBlocks, 2);
+        server.expect<Bye>();
+    }});
+    for (std::promise<FrameReport>* refused : {&too_short, &too_high}) {
+        auto report = refused->get_future();
+        ASSERT_EQ(report.wait_for(kPatience), std::future_status::ready);
+        EXPECT_TRUE(report.get().decode_failed);
+    }
+    const auto frame = trial.session.next_frame(kPatience);
+    ASSERT_TRUE(frame);
+    EXPECT_EQ(frame->frame.id, 3U);
+    ASSERT_EQ(frame->frame.moving.size(), 2U);
+    ASSERT_EQ(frame->moving_map.texels.size(), kBlocks);
+    EXPECT_EQ(frame->moving_map.width_px, frame->depth.width_px);
+    EXPECT_EQ(frame->moving_map.at(5, 0), 2);
+    EXPECT_EQ(frame->moving_map.at(6, 0), 0);
+    trial.session.stop();
+    EXPECT_NE(trial.logged().find("Frame.moving_map"), std::string::npos) << trial.logged();
 }
 
 TEST(ClientSession, ARefusalEndsItWithoutRetry) {
