@@ -21,12 +21,13 @@ using LoadProgress = std::function<void(const std::string& stage, double share)>
 
 /// What a program may change about a scene.
 struct LoadOptions {
-    std::string environment;  ///< lat-long picture (HDR, EXR) to light the scene with; empty: the scene's own
-    std::string camera;       ///< name of the scene's camera to start from; empty: the scene's start pose
-    LoadProgress progress;    ///< may be empty
+    std::string environment;    ///< lat-long picture (HDR, EXR) to light the scene with; empty: the scene's own
+    std::string camera;         ///< name of the scene's camera to start from; empty: the scene's start pose
+    bool level_camera = false;  ///< without the camera's pitch and roll, as a head begins
+    LoadProgress progress;      ///< may be empty
 };
 
-/// Loads a scene by name ("bunny-box") or by path (.gltf, .glb).
+/// Loads a scene by name ("bunny-box", "air-shed") or by path (.gltf, .glb).
 /// Errors: `input_file`, naming the file and the element that is wrong; `option` for an unknown name or camera.
 Expected<LoadedScene> load_scene(const std::string& name_or_path, const LoadOptions& options = {});
 

@@ -10,6 +10,7 @@ namespace macula {
 std::variant<Options, int> parse_options(int argc, char** argv) {
     Options options;
     CLI::App app{"macula-server: ray-traces foveated stereo frames for the gaze that a client sends.", "macula-server"};
+    options.scene.level_camera = true;
     add_scene_options(app, options.scene);
     app.add_option("--listen", options.listen, "ADDRESS:PORT, [IPV6]:PORT, or *:PORT for every address; port 0: any")
         ->capture_default_str();

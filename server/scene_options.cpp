@@ -27,6 +27,7 @@ Expected<LoadedScene> load_scene(const SceneOptions& options, const LoadProgress
     LoadOptions load;
     load.environment = options.environment;
     load.camera = options.camera;
+    load.level_camera = options.level_camera;
     load.progress = progress;
     return load_scene(options.scene, load);
 }

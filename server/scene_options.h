@@ -16,9 +16,10 @@ namespace macula {
 /// What to show and how to light it: the options that all programs with a tracer have.
 struct SceneOptions {
     std::string scene = "bunny-box";
-    std::string environment;  ///< picture to light the scene with; empty: the scene's own light
-    std::string camera;       ///< camera of the scene to start from; empty: its start pose
-    bool explain = false;     ///< say what the scene needs, and end
+    std::string environment;    ///< picture to light the scene with; empty: the scene's own light
+    std::string camera;         ///< camera of the scene to start from; empty: its start pose
+    bool level_camera = false;  ///< without its pitch and roll, as a head begins
+    bool explain = false;       ///< say what the scene needs, and end
     TracerOptions tracer;
 };
 
