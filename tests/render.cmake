@@ -2,8 +2,14 @@ add_library(macula_test_pictures STATIC support/pictures.cpp)
 target_link_libraries(macula_test_pictures PUBLIC macula_base PRIVATE PkgConfig::OIIO)
 
 macula_test(kernels_test
-    SOURCES unit/brdf_kernel_test.cpp unit/camera_kernel_test.cpp unit/color_kernel_test.cpp
+    SOURCES unit/camera_kernel_test.cpp unit/color_kernel_test.cpp
             unit/light_kernel_test.cpp unit/texture_kernel_test.cpp
+    LINK macula_kernels
+    LABELS fast)
+
+macula_test(reflectance_test
+    SOURCES unit/area_light_kernel_test.cpp unit/brdf_kernel_test.cpp unit/fresnel_kernel_test.cpp
+            unit/layers_kernel_test.cpp property/reflectance_test.cpp
     LINK macula_kernels
     LABELS fast)
 

@@ -20,12 +20,12 @@ struct Surface {
     vec3 f0;    ///< specular reflectance at normal incidence
     float f90;  ///< and at grazing incidence
     AlbedoCurves curves;
-    vec3 scatter;               ///< multiple-scattering lobe per loss(n.l), 1/sr
-    vec3 base;                  ///< Lambert base per entry(n.l), 1/sr
-    vec3 entry;                 ///< share of light that enters the base: x - y grazing(n.l) - z loss(n.l)
-    vec3 specular_albedo;       ///< share of uniform light that the lobes send to the viewer
-    vec3 base_albedo;           ///< and that the base sends
-    vec3 mean_specular_albedo;  ///< mean of specular_albedo over all views, weighted by their cosines
+    vec3 scatter;            ///< multiple-scattering lobe per loss(n.l), 1/sr
+    vec3 base;               ///< Lambert base per entry(n.l), 1/sr
+    vec3 entry;              ///< share of light that enters the base: x - y grazing(n.l) - z loss(n.l)
+    vec3 specular_albedo;    ///< share of uniform light that the lobes send to the viewer
+    vec3 base_albedo;        ///< and that the base sends
+    vec3 mean_metal_albedo;  ///< specular_albedo of the metallic share alone, mean over views weighted by their cosines
 };
 
 /// Colour of the light that leaves the microfacets after more than one bounce, as a share of what single scattering
@@ -56,15 +56,17 @@ KERNEL Surface make_surface(vec3 base_color, float metallic, float roughness, ve
     Albedos mean = mean_albedos(r);
     Albedos seen = albedos_at(s.curves, max(n_dot_v, 1.0e-4F));
 
-    vec3 color = multiple_scattering_color(dielectric_f0, dielectric_f90, mean.loss) * dielectric +
-                 multiple_scattering_color(base_color, 1.0F, mean.loss) * metallic;
+    vec3 metal_color = multiple_scattering_color(base_color, 1.0F, mean.loss);
+    vec3 color =
+        multiple_scattering_color(dielectric_f0, dielectric_f90, mean.loss) * dielectric + metal_color * metallic;
     s.scatter = color * (seen.loss / (kPi * mean.loss));
-    s.mean_specular_albedo = s.f0 * (1.0F - mean.loss - mean.grazing) + vec3(s.f90 * mean.grazing) + color * mean.loss;
+    s.mean_metal_albedo =
+        (base_color * (1.0F - mean.loss - mean.grazing) + vec3(mean.grazing) + metal_color * mean.loss) * metallic;
     s.specular_albedo = s.f0 * (1.0F - seen.loss - seen.grazing) + vec3(s.f90 * seen.grazing) + color * seen.loss;
 
     float share = multiple_scattering_share(strongest_f0, dielectric_f90, mean.loss);
     s.entry = vec3(1.0F - strongest_f0, dielectric_f90 - strongest_f0, share - strongest_f0);
-    float seen_entry = s.entry.x - s.entry.y * seen.grazing - s.entry.z * seen.loss;
+    float seen_entry = max(s.entry.x - s.entry.y * seen.grazing - s.entry.z * seen.loss, 0.0F);
     float mean_entry = s.entry.x - s.entry.y * mean.grazing - s.entry.z * mean.loss;
     s.base_albedo = base_color * (dielectric * opacity * seen_entry);
     s.base = s.base_albedo * (1.0F / (kPi * max(mean_entry, 1.0e-4F)));
@@ -112,7 +114,7 @@ KERNEL vec3 specular_lobes(KERNEL_IN(Surface) surface, Bounce b, Albedos lit) {
 
 /// Share of light that enters the base from the direction that `lit` is for.
 KERNEL float base_entry(KERNEL_IN(Surface) surface, Albedos lit) {
-    return surface.entry.x - surface.entry.y * lit.grazing - surface.entry.z * lit.loss;
+    return max(surface.entry.x - surface.entry.y * lit.grazing - surface.entry.z * lit.loss, 0.0F);
 }
 
 /// Reflectance distribution times n.l, 1/sr: radiance towards `view`, for which the surface was made, per irradiance
@@ -127,52 +129,6 @@ KERNEL vec3 reflect_light(KERNEL_IN(Surface) surface, vec3 normal, vec3 view, ve
 /// Share of uniform light from everywhere that the surface sends to the viewer.
 KERNEL vec3 reflect_uniform_light(KERNEL_IN(Surface) surface) {
     return surface.specular_albedo + surface.base_albedo;
-}
-
-// The reflectance before multiple scattering and exact coupling, for callers that have not moved to Surface yet.
-
-/// What the reflectance needs to know about a surface.
-struct Reflectance {
-    vec3 diffuse;  ///< albedo of the base
-    vec3 f0;       ///< specular reflectance at normal incidence
-    float alpha;   ///< GGX width: perceptual roughness squared
-};
-
-/// glTF 2.0 B.3.5: dielectrics reflect 4 %, metals their base colour and have no base.
-KERNEL Reflectance make_reflectance(vec3 base_color, float metallic, float roughness) {
-    float r = max(roughness, kMinRoughness);
-    Reflectance result;
-    result.diffuse = base_color * (1.0F - metallic);
-    result.f0 = vec3(kDielectricF0 * (1.0F - metallic)) + base_color * metallic;
-    result.alpha = r * r;
-    return result;
-}
-
-/// Lambert's base under a dielectric layer, 1/sr: it reflects what the layer does not, 1 - fresnel(n.v), of a white
-/// surface. 21/20 makes up for the mean of the light's weight.
-KERNEL float layered_base(float n_dot_l, float n_dot_v) {
-    return (1.0F - kDielectricF0) * 1.05F / kPi * (1.0F - schlick_weight(n_dot_l)) * (1.0F - schlick_weight(n_dot_v));
-}
-
-/// Reflectance distribution times n.l, 1/sr: radiance towards `view` per irradiance that `light` brings to a
-/// surface that faces it. All vectors are unit and point away from the surface; 0 where n.l <= 0. A view that a
-/// bent normal turns away from counts as grazing.
-KERNEL vec3 reflect_light(Reflectance surface, vec3 normal, vec3 view, vec3 light) {
-    float n_dot_l = max(dot(normal, light), 0.0F);
-    float n_dot_v = max(dot(normal, view), 1.0e-4F);
-    vec3 sum = light + view;
-    vec3 h = sum * (1.0F / sqrt(max(dot(sum, sum), 1.0e-12F)));
-    vec3 n_cross_h = cross(normal, h);
-    float d = ggx_distribution(max(dot(normal, h), 0.0F), dot(n_cross_h, n_cross_h), surface.alpha);
-    float v = smith_visibility(max(n_dot_l, 1.0e-4F), n_dot_v, surface.alpha);
-    vec3 f = schlick_fresnel(surface.f0, dot(view, h));
-    return (surface.diffuse * layered_base(n_dot_l, n_dot_v) + f * (v * d)) * n_dot_l;
-}
-
-/// Share of uniform light from everywhere that the surface sends to the viewer: the Fresnel term is taken at normal
-/// incidence, so that a white surface reflects all of it.
-KERNEL vec3 reflect_uniform_light(Reflectance surface) {
-    return surface.f0 + surface.diffuse * (1.0F - kDielectricF0);
 }
 
 KERNEL_END

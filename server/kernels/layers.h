@@ -8,9 +8,9 @@
 //
 // A layer lets through what it does not reflect: T(mu) = 1 - albedo(mu). Lobes of the surface are scaled by the
 // smaller of T(n.v) and T(n.l), as KHR_materials_sheen has it, which keeps light and view interchangeable and is exact
-// for a mirror. Where a lobe is wide, light that left at a flatter angle is then missing; it goes into a lobe of its
-// own as the light between microfacets does. The Lambert base is scaled by T(n.v) T(n.l) over the mean instead, which
-// is exact.
+// for a mirror. Where a lobe is wide, light that left at a flatter angle is then missing. It was reflected back down:
+// over metal it goes into a lobe of its own as the light between microfacets does, over a dielectric into the base.
+// The base takes what is left, as in brdf.h: R(n.v) R(n.l) over the mean of R, R = T entry + missing (1 - entry).
 
 KERNEL_BEGIN
 
@@ -28,27 +28,30 @@ struct Layers {
     float sheen_strength;      ///< largest component of the colour
     float sheen_masking_view;  ///< Smith's Lambda of the view
     float passes;              ///< T of coat and sheen for the view
-    vec3 base_per_entry;       ///< the surface's base per T(n.l) entry(n.l), 1/sr
+    vec3 base_per_left;        ///< the base per R(n.l), 1/sr
     vec4 missing;              ///< what wide lobes of the surface miss, see `missing_at`
+    vec4 sheen_missing;        ///< and what the sheen misses under the coat
     vec3 return_per_missing;   ///< lobe that gives it back, per missing(n.l), 1/sr
     vec3 albedo;               ///< share of uniform light that everything sends to the viewer
 };
 
 /// Share of light that a coat of strength 1 lets through.
 KERNEL float coat_entry_at(KERNEL_IN(Layers) layers, Albedos a) {
-    return layers.coat_entry.x - layers.coat_entry.y * a.grazing - layers.coat_entry.z * a.loss;
+    return max(layers.coat_entry.x - layers.coat_entry.y * a.grazing - layers.coat_entry.z * a.loss, 0.0F);
 }
 
 /// Transmittances of layers in one direction.
 struct LayerPassage {
-    float coat;  ///< of the coat
-    float all;   ///< of coat and sheen
+    float coat;   ///< of the coat
+    float all;    ///< of coat and sheen
+    float sheen;  ///< share that the strongest component of the sheen reflects where nothing covers it
 };
 
 KERNEL LayerPassage layer_passage(KERNEL_IN(Layers) layers, Albedos coat, float cosine) {
     LayerPassage result;
     result.coat = 1.0F - layers.coat * (1.0F - coat_entry_at(layers, coat));
-    result.all = result.coat * (1.0F - layers.sheen_strength * sheen_albedo(layers.sheen, cosine));
+    result.sheen = layers.sheen_strength * sheen_albedo(layers.sheen, cosine);
+    result.all = result.coat * (1.0F - result.sheen);
     return result;
 }
 
@@ -56,9 +59,9 @@ KERNEL LayerPassage layer_passage(KERNEL_IN(Layers) layers, Albedos coat, float 
 /// its directions than in the view's: the integral of lobe * max(T(view) - T(light), 0). A polynomial in t of degree 3
 /// times t (1 - t), t = mu / (mu + .8 roughness), whose coefficients the two functions below give for a coat and for
 /// white sheen; fitted to integrals as those in microfacet.h. `roughness` is the surface's.
-KERNEL float missing_at(KERNEL_IN(Layers) layers, float roughness, float cosine) {
+KERNEL float missing_at(vec4 missing, float roughness, float cosine) {
     float t = cosine / (cosine + 0.8F * roughness);
-    float p = layers.missing.x + t * (layers.missing.y + t * (layers.missing.z + t * layers.missing.w));
+    float p = missing.x + t * (missing.y + t * (missing.z + t * missing.w));
     return max(t * (1.0F - t) * p, 0.0F);
 }
 
@@ -90,12 +93,20 @@ KERNEL vec4 missing_under_sheen(float roughness, float sheen_roughness) {
     return (constant + linear * q + square * (q * q)) * 0.9F;
 }
 
+/// R: the share of light that a dielectric's base gets, from what its layers let through, what of that enters the base
+/// at once, and what wide lobes miss. Sheen is as wide as a microfacet lobe of roughness 1.
+KERNEL float left_to_base(KERNEL_IN(Layers) layers, LayerPassage passage, float entry, float missing, float cosine) {
+    return passage.all * entry + missing * (1.0F - entry) +
+           passage.sheen * missing_at(layers.sheen_missing, 1.0F, cosine);
+}
+
 /// What `make_layers` takes the means of over the hemisphere: x is the share of light that enters the base through
 /// the layers, y what is missing under the coat.
 KERNEL vec2 layer_mean(KERNEL_IN(Layers) layers, KERNEL_IN(Surface) surface, float roughness, float cosine) {
     LayerPassage passage = layer_passage(layers, albedos_at(layers.coat_curves, cosine), cosine);
+    float missing = missing_at(layers.missing, roughness, cosine);
     float entry = base_entry(surface, albedos_at(surface.curves, cosine));
-    return vec2(passage.all * entry, missing_at(layers, roughness, cosine));
+    return vec2(left_to_base(layers, passage, entry, missing, cosine), missing);
 }
 
 /// Coat and sheen over a surface, both as seen from the same direction: `n_dot_v` is its cosine to the surface's
@@ -125,15 +136,19 @@ KERNEL Layers make_layers(KERNEL_IN(Surface) surface, float n_dot_v, float coat,
     result.missing =
         missing_under_coat(q, r) * coat + missing_under_sheen(q, result.sheen.roughness) * result.sheen_strength;
 
+    result.sheen_missing = missing_under_coat(1.0F, r) * coat;
+
     // Gauss's rule of five nodes for integrals of f(mu) 2 mu over 0..1.
     vec2 means = layer_mean(result, surface, q, 0.09853509F) * 0.03149583F +
                  layer_mean(result, surface, q, 0.30453573F) * 0.14781774F +
                  layer_mean(result, surface, q, 0.56202519F) * 0.29277397F +
                  layer_mean(result, surface, q, 0.80198658F) * 0.33434928F +
                  layer_mean(result, surface, q, 0.96019014F) * 0.19356318F;
-    result.base_per_entry = surface.base_albedo * (seen.all / (kPi * max(means.x, 1.0e-4F)));
-    result.return_per_missing =
-        surface.mean_specular_albedo * (missing_at(result, q, cosine) / (kPi * max(means.y, 1.0e-4F)));
+    float missing = missing_at(result.missing, q, cosine);
+    float entry = base_entry(surface, albedos_at(surface.curves, cosine));
+    result.base_per_left = surface.base_albedo * (left_to_base(result, seen, entry, missing, cosine) /
+                                                  (max(entry, 1.0e-4F) * kPi * max(means.x, 1.0e-4F)));
+    result.return_per_missing = surface.mean_metal_albedo * (missing / (kPi * max(means.y, 1.0e-4F)));
     result.albedo = vec3(1.0F - seen.coat) + sheen_color * (seen.coat * sheen_albedo(result.sheen, cosine)) +
                     reflect_uniform_light(surface) * seen.all;
     return result;
@@ -153,9 +168,10 @@ KERNEL vec3 reflect_light(KERNEL_IN(Surface) surface, KERNEL_IN(Layers) layers, 
         reflect_sheen(layers.sheen, max(g.n_dot_l, 1.0e-4F), g.n_dot_v, g.n_cross_h_sq, layers.sheen_masking_view) *
         min(layers.coat_passes, lit.coat);
     Albedos a = albedos_at(surface.curves, g.n_dot_l);
+    float missing = missing_at(layers.missing, sqrt(surface.curves.alpha), g.n_dot_l);
     vec3 under = specular_lobes(surface, g, a) * min(layers.passes, lit.all) +
-                 layers.base_per_entry * (base_entry(surface, a) * lit.all) +
-                 layers.return_per_missing * missing_at(layers, sqrt(surface.curves.alpha), g.n_dot_l);
+                 layers.base_per_left * left_to_base(layers, lit, base_entry(surface, a), missing, g.n_dot_l) +
+                 layers.return_per_missing * missing;
     return vec3(coat_lobe * c.n_dot_l) + (layers.sheen_color * sheen_lobe + under) * g.n_dot_l;
 }
 

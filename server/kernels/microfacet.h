@@ -88,7 +88,7 @@ KERNEL Albedos albedos_at(AlbedoCurves c, float cosine) {
     float m = 1.0F - cosine;
     float m2 = m * m;
     Albedos result;
-    result.loss = t * s * s * (c.p0 + t * (c.p1 + t * (c.p2 + t * (c.p3 + t * c.p4))));
+    result.loss = max(t * s * s * (c.p0 + t * (c.p1 + t * (c.p2 + t * (c.p3 + t * c.p4)))), 0.0F);
     result.grazing = m2 * m2 * m * (c.q0 + t * (c.q1 + t * (c.q2 + t * (c.q3 + t * c.q4))));
     return result;
 }

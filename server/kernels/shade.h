@@ -54,11 +54,4 @@ KERNEL vec3 shade_light(KERNEL_IN(Surface) surface, KERNEL_IN(Layers) layers, ve
     return dot(geometric_normal, light.direction) > 0.0F ? reflected : vec3(0.0F);
 }
 
-/// Radiance towards `view` that one light causes, unshadowed. Light that the flat surface turns away from does not
-/// count even where the interpolated normal would see it: the surface itself shadows it.
-KERNEL vec3 shade_light(Reflectance surface, vec3 geometric_normal, vec3 normal, vec3 view, LightSample light) {
-    vec3 reflected = reflect_light(surface, normal, view, light.direction) * light.irradiance;
-    return dot(geometric_normal, light.direction) > 0.0F ? reflected : vec3(0.0F);
-}
-
 KERNEL_END

@@ -75,7 +75,7 @@ KERNEL KernelResult run_case(KernelCase k) {
     vec3 normal = random_direction(k.e.x, k.e.y);
     vec3 view = random_direction(k.e.z, k.e.w);
     view = dot(view, normal) < 0.0F ? view * -1.0F : view;
-    Reflectance surface = make_reflectance(vec3(k.f.x, k.f.y, k.f.z), k.f.w, 0.2F + 0.8F * k.c.w);
+    Surface surface = make_surface(vec3(k.f.x, k.f.y, k.f.z), k.f.w, 0.2F + 0.8F * k.c.w, dot(normal, view));
     vec3 radiance = shade_light(surface, normal, normal, view, s);
     result.shading = vec4(radiance.x, radiance.y, radiance.z, reflect_uniform_light(surface).y);
 
