@@ -35,6 +35,9 @@ InstancePlace place_of(const glm::mat4& world_from_mesh) {
     const float determinant = glm::determinant(place.world_from_mesh);
     place.handedness = determinant < 0.0F ? -1.0F : 1.0F;
     place.size = std::abs(determinant);
+    // The Frobenius norm bounds the largest singular value.
+    const glm::mat3& m = place.world_from_mesh;
+    place.stretch = std::sqrt(glm::dot(m[0], m[0]) + glm::dot(m[1], m[1]) + glm::dot(m[2], m[2]));
     return place;
 }
 

@@ -35,7 +35,8 @@ struct InstancePlace {
 
     /// Normal of a front in world space, as long as the cross product of the placed triangle's edges.
     [[nodiscard]] glm::vec3 front_normal(const glm::vec3& in_mesh) const { return normal_matrix * in_mesh * size; }
-    float size = 1.0F;  ///< by which volumes grow
+    float size = 1.0F;     ///< by which volumes grow
+    float stretch = 1.0F;  ///< by which lengths grow at most
 };
 
 /// A scene at one time. Constant.

@@ -68,13 +68,19 @@ BatchMemory& thread_memory() {
     return *memory;
 }
 
+/// Without bounces, what only reflected rays are for falls away.
+std::uint32_t needs_of(std::uint32_t scene, const TracerOptions& options) {
+    const std::uint32_t needs = options.bounces > 0 ? scene : scene & ~(kNeedMirrors | kNeedGloss);
+    return needs | options.forced_features;
+}
+
 class EmbreeTracer final : public Tracer {
 public:
     EmbreeTracer(std::shared_ptr<const Scene> scene, const TracerOptions& options, RayTap* tap)
         : options_(options),
           tap_(tap),
           shading_(std::move(scene)),
-          needs_(shading_.needs() | options.forced_features),
+          needs_(needs_of(shading_.needs(), options)),
           scene_(shading_, needs_) {}
 
     Expected<void> build() { return scene_.build(); }

@@ -1,6 +1,6 @@
 #include "server/render/packet_shading.h"
 
-#include <array>
+#include <algorithm>
 
 #include "server/kernels/area_light.h"
 #include "server/kernels/color.h"
@@ -29,12 +29,13 @@ void orient(const HitPacket& hits, SurfacePacket& surfaces) {
         surfaces.view.set(i, view);
         surfaces.geometric_normal.set(i, geometric_normal);
         surfaces.normal.set(i, kernels::safe_normalize(surfaces.normal[i] * side));
-        surfaces.position.set(i, kernels::leave_surface(position, geometric_normal, hits.distance[i] * length));
+        const float path_m = std::max(hits.distance[i] * length, surfaces.plane_extent_m[i]);
+        surfaces.position.set(i, kernels::leave_surface(position, geometric_normal, path_m));
     }
 }
 
 /// Surfaces of plain materials.
-void prepare_plain(SurfacePacket& surfaces) {
+[[gnu::flatten]] void prepare_plain(SurfacePacket& surfaces) {
     MACULA_LANE_LOOP
     for (int i = 0; i < kLaneCount; ++i) {
         const float n_dot_v = glm::dot(surfaces.normal[i], surfaces.view[i]);
@@ -44,58 +45,100 @@ void prepare_plain(SurfacePacket& surfaces) {
 }
 
 /// Surfaces of lanes whose material has more than plain ones.
-void prepare_rich(const ShadingContext& context, const HitPacket& hits, SurfacePacket& surfaces) {
-    const ShadingInstance* instances = context.scene.instances().data();
-    constexpr std::uint32_t kRich = kNeedTransmission | kNeedRefraction | kNeedSpecular;
-    for_each_lane(surfaces.lit, [&](int lane) {
-        const ShadingInstance& instance = instances[hits.instance[lane]];
-        if ((instance.needs & kRich) == 0) return;
-        const Material& material = *instance.material;
-        const float f0 = kernels::fresnel_f0(material.ior);
-        const vec3 dielectric_f0 = glm::min(material.specular_color * f0, vec3(1.0F)) * material.specular;
-        const bool transmits = ((surfaces.branching >> lane) & 1U) != 0;
-        const float opacity = transmits ? 1.0F - surfaces.transmission[lane] : 1.0F;
-        const float n_dot_v = glm::dot(surfaces.normal[lane], surfaces.view[lane]);
-        surfaces.surface.set(
-            lane, kernels::make_surface(surfaces.base_color[lane], surfaces.metallic[lane], surfaces.roughness[lane],
-                                        dielectric_f0, material.specular, opacity, n_dot_v));
+void prepare_rich(SurfacePacket& surfaces) {
+    for_each_lane(surfaces.rich, [&](int lane) {
+        RichSurface& more = surfaces.more[lane];
+        const vec3 view = surfaces.view[lane];
+        const bool branches = ((surfaces.branching >> lane) & 1U) != 0;
+        const float opacity = branches ? 1.0F - surfaces.transmission[lane] : 1.0F;
+        const float n_dot_v = glm::dot(surfaces.normal[lane], view);
+        const kernels::Surface surface =
+            kernels::make_surface(surfaces.base_color[lane], surfaces.metallic[lane], surfaces.roughness[lane],
+                                  more.dielectric_f0, more.dielectric_f90, opacity, n_dot_v);
+        surfaces.surface.set(lane, surface);
+        if (((surfaces.layered >> lane) & 1U) == 0) return;
+        const float side = glm::dot(more.coat_normal, view) < 0.0F ? -1.0F : 1.0F;
+        more.coat_normal = more.coat_normal * side;
+        more.layers = kernels::make_layers(surface, n_dot_v, more.coat, more.coat_roughness,
+                                           glm::dot(more.coat_normal, view), more.sheen_color, more.sheen_roughness);
     });
 }
 
 /// Which share of their specular light rays bring.
 void share_reflections(const ShadingContext& context, const HitPacket& hits, SurfacePacket& surfaces) {
-    const ShadingInstance* instances = context.scene.instances().data();
     for_each_lane(surfaces.branching & surfaces.lit, [&](int lane) {
-        const bool transmits = (instances[hits.instance[lane]].needs & (kNeedTransmission | kNeedRefraction)) != 0;
-        if (transmits && surfaces.transmission[lane] > 0.0F) {
+        const bool layered = ((surfaces.layered >> lane) & 1U) != 0;
+        RichSurface& more = surfaces.more[lane];
+        const float seen = hits.share[lane] * surfaces.coverage[lane];
+        const bool may_reflect = ((hits.may_reflect >> lane) & 1U) != 0;
+        if (layered && may_reflect)
+            more.coat_reflected = glossy_share(more.coat_roughness) *
+                                  traced_share((1.0F - more.layers.coat_passes) * seen, context.bounce_bound);
+        if (surfaces.transmission[lane] > 0.0F) {
             surfaces.reflected[lane] = 1.0F;  // the exact split between reflection and refraction is that of the rays
-            return;
+        } else if (may_reflect) {
+            const vec3 albedo = surfaces.surface.specular_albedo[lane] * (layered ? more.layers.passes : 1.0F);
+            const float share = std::max({albedo.x, albedo.y, albedo.z}) * seen;
+            surfaces.reflected[lane] =
+                glossy_share(surfaces.roughness[lane]) * traced_share(share, context.bounce_bound);
         }
-        if (((hits.may_reflect >> lane) & 1U) == 0) return;
-        const vec3 albedo = surfaces.surface.specular_albedo[lane];
-        const float share =
-            glm::max(glm::max(albedo.x, albedo.y), albedo.z) * hits.share[lane] * surfaces.coverage[lane];
-        surfaces.reflected[lane] = glossy_share(surfaces.roughness[lane]) * traced_share(share, context.bounce_bound);
     });
+}
+
+/// Light that a glossy lobe of this albedo brings from all around.
+vec3 glossy_light(const ShadingContext& context, const vec3& view, const vec3& normal, float roughness,
+                  const vec3& albedo) {
+    vec3 radiance = context.scene.scene().ambient_radiance;
+    if (const EnvironmentMap* environment = context.scene.environment())
+        radiance += environment->glossy_radiance(kernels::mirror_direction(view, normal), roughness);
+    return radiance * albedo;
+}
+
+/// Light from all around at one lane, less what reflected rays bring.
+vec3 surrounding_light_at(const ShadingContext& context, const SurfacePacket& surfaces, int lane) {
+    const bool branches = ((surfaces.branching >> lane) & 1U) != 0;
+    const bool layered = ((surfaces.layered >> lane) & 1U) != 0;
+    const vec3 view = surfaces.view[lane];
+    const vec3 normal = surfaces.normal[lane];
+    vec3 specular = surfaces.surface.specular_albedo[lane];
+    vec3 matt = surfaces.surface.base_albedo[lane];
+    vec3 light(0.0F);
+    if (layered) {
+        const RichSurface& more = surfaces.more[lane];
+        const vec3 coat(1.0F - more.layers.coat_passes);
+        // Sheen reflects nearly as matt surfaces do.
+        matt = more.layers.albedo - coat - specular * more.layers.passes;
+        specular *= more.layers.passes;
+        light +=
+            glossy_light(context, view, more.coat_normal, more.coat_roughness, coat * (1.0F - more.coat_reflected));
+    }
+    if (branches) specular *= 1.0F - surfaces.reflected[lane];
+    light += glossy_light(context, view, normal, surfaces.roughness[lane], specular);
+    vec3 all_around = context.scene.scene().ambient_radiance;
+    if (const EnvironmentMap* environment = context.scene.environment())
+        all_around += environment->irradiance(normal) * (1.0F / kernels::kPi);
+    return light + all_around * matt;
 }
 
 /// Light from all around, less what reflected rays bring.
 void add_surrounding_light(const ShadingContext& context, SurfacePacket& surfaces) {
+    const LaneMask special = context.scene.environment() != nullptr ? 0xFFFFU : (surfaces.branching | surfaces.layered);
     const vec3 ambient = context.scene.scene().ambient_radiance;
     MACULA_LANE_LOOP
     for (int i = 0; i < kLaneCount; ++i) {
         const vec3 albedo = surfaces.surface.base_albedo[i] + surfaces.surface.specular_albedo[i];
-        surfaces.radiance.set(i, surfaces.radiance[i] + ambient * albedo);
+        const float plain = ((special >> i) & 1U) != 0 ? 0.0F : 1.0F;
+        surfaces.radiance.set(i, surfaces.radiance[i] + ambient * albedo * plain);
     }
-    for_each_lane(surfaces.branching & surfaces.lit, [&](int lane) {
-        const vec3 traced = surfaces.surface.specular_albedo[lane] * surfaces.reflected[lane];
-        surfaces.radiance.set(lane, surfaces.radiance[lane] - ambient * traced);
+    for_each_lane(special & surfaces.lit, [&](int lane) {
+        surfaces.radiance.set(lane, surfaces.radiance[lane] + surrounding_light_at(context, surfaces, lane));
     });
 }
 
 /// Irradiance and directions into radiance, for whichever kind of light.
 template <class Sample>
-void evaluate(const SurfacePacket& surfaces, const SurfaceLanes& lobes, LightPacket& shine, Sample&& sample_at) {
+[[gnu::flatten]] void evaluate(const SurfacePacket& surfaces, const SurfaceLanes& lobes, LightPacket& shine,
+                               Sample&& sample_at) {
     Lanes<float> sum;
     MACULA_LANE_LOOP
     for (int i = 0; i < kLaneCount; ++i) {
@@ -106,6 +149,15 @@ void evaluate(const SurfacePacket& surfaces, const SurfaceLanes& lobes, LightPac
         shine.radiance.set(i, radiance);
         sum[i] = radiance.x + radiance.y + radiance.z;
     }
+    for_each_lane(surfaces.layered & surfaces.lit, [&](int lane) {
+        const RichSurface& more = surfaces.more[lane];
+        const kernels::LightSample sample = sample_at(lane);
+        const vec3 radiance =
+            kernels::shade_light(lobes[lane], more.layers, surfaces.geometric_normal[lane], surfaces.normal[lane],
+                                 more.coat_normal, surfaces.view[lane], sample);
+        shine.radiance.set(lane, radiance);
+        sum[lane] = radiance.x + radiance.y + radiance.z;
+    });
     LaneMask lanes = 0;
     for (int i = 0; i < kLaneCount; ++i) lanes |= static_cast<LaneMask>(sum[i] > 0.0F) << i;
     shine.lanes = lanes & surfaces.lit;
@@ -136,7 +188,7 @@ void SurfaceLanes::set(int lane, const kernels::Surface& s) {
 }
 
 kernels::Surface SurfaceLanes::operator[](int lane) const {
-    kernels::Surface s;
+    kernels::Surface s{};
     s.f0 = f0[lane];
     s.f90 = f90[lane];
     s.curves = {curves[0][lane], curves[1][lane], curves[2][lane], curves[3][lane], curves[4][lane], curves[5][lane],
@@ -152,6 +204,9 @@ kernels::Surface SurfaceLanes::operator[](int lane) const {
 void find_surfaces(const ShadingContext& context, const HitPacket& hits, SurfacePacket& surfaces) noexcept {
     // Lanes that missed compute too: with zeros, not with garbage that may be denormal.
     surfaces.branching = 0;
+    surfaces.rich = 0;
+    surfaces.layered = 0;
+    surfaces.plane_extent_m = Lanes<float>{};
     surfaces.normal = Lanes3{};
     surfaces.base_color = Lanes3{};
     surfaces.metallic = Lanes<float>{};
@@ -161,13 +216,15 @@ void find_surfaces(const ShadingContext& context, const HitPacket& hits, Surface
     fetch_surfaces(context, hits, surfaces);
     orient(hits, surfaces);
     prepare_plain(surfaces);
-    if ((context.needs & (kNeedTransmission | kNeedRefraction | kNeedSpecular)) != 0)
-        prepare_rich(context, hits, surfaces);
+    if (surfaces.rich != 0) prepare_rich(surfaces);
     if (surfaces.branching != 0) share_reflections(context, hits, surfaces);
     add_surrounding_light(context, surfaces);
     for_each_lane(hits.hit & ~surfaces.lit, [&](int lane) { surfaces.radiance.set(lane, surfaces.base_color[lane]); });
-    for_each_lane(~hits.hit & 0xFFFFU,
-                  [&](int lane) { surfaces.radiance.set(lane, context.scene.scene().background_radiance); });
+    for_each_lane(~hits.hit & hits.traced, [&](int lane) {
+        const bool has_map = context.scene.environment() != nullptr;
+        surfaces.radiance.set(lane,
+                              background_light(context, hits.direction[lane], has_map ? hits.spread[lane] : 0.0F));
+    });
 }
 
 void shine(const ShadingLight& light, const SurfacePacket& surfaces, const SurfaceLanes& lobes,
@@ -214,8 +271,17 @@ void encode(const Lanes3& radiance, float exposure, Lanes<std::uint32_t>& color)
     for (int i = 0; i < kLaneCount; ++i) color[i] = kernels::srgb8_from_linear(radiance[i] * exposure);
 }
 
-vec3 surrounding_light(const ShadingContext& context, const vec3& /*direction*/, float /*spread*/) noexcept {
-    return context.scene.scene().ambient_radiance;
+vec3 background_light(const ShadingContext& context, const vec3& direction, float spread) noexcept {
+    const EnvironmentMap* environment = context.scene.environment();
+    return environment != nullptr ? environment->radiance(direction, spread)
+                                  : context.scene.scene().background_radiance;
+}
+
+vec3 surrounding_light(const ShadingContext& context, const vec3& direction, float spread) noexcept {
+    vec3 radiance = context.scene.scene().ambient_radiance;
+    if (const EnvironmentMap* environment = context.scene.environment())
+        radiance += environment->radiance(direction, spread);
+    return radiance;
 }
 
 }  // namespace macula

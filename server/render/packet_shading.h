@@ -3,6 +3,8 @@
 #include <cstdint>
 
 #include "server/kernels/brdf.h"
+#include "server/kernels/glossy.h"
+#include "server/kernels/layers.h"
 #include "server/render/embree_scene.h"
 #include "server/render/lanes.h"
 #include "server/render/shading_scene.h"
@@ -52,10 +54,25 @@ struct SurfaceLanes {
     [[nodiscard]] kernels::Surface operator[](int lane) const;
 };
 
+/// What a lane has whose material is more than a plain one.
+struct RichSurface {
+    glm::vec3 dielectric_f0;
+    float dielectric_f90;
+    float coat;  ///< this and the rest of lanes with layers
+    float coat_roughness;
+    glm::vec3 coat_normal;  ///< unit
+    glm::vec3 sheen_color;
+    float sheen_roughness;
+    kernels::Layers layers;
+    float coat_reflected;  ///< like SurfacePacket::reflected, of the coat
+};
+
 /// The surfaces that a packet met, as its lights see them.
 struct SurfacePacket {
     LaneMask lit = 0;         ///< lanes that lights shine on: neither missed nor unlit
     LaneMask branching = 0;   ///< lanes from which rays may go on
+    LaneMask rich = 0;        ///< lanes whose material is more than a plain one
+    LaneMask layered = 0;     ///< lanes that have layers on top
     Lanes3 position;          ///< lifted off the surface, so that rays may start there
     Lanes3 view;              ///< unit, towards the eye
     Lanes3 geometric_normal;  ///< unit, on the viewer's side
@@ -63,6 +80,7 @@ struct SurfacePacket {
     Lanes3 base_color;
     Lanes<float> metallic;
     Lanes<float> roughness;
+    Lanes<float> plane_extent_m;  ///< ShadingInstance's
     SurfaceLanes surface;
     Lanes3 radiance;  ///< towards the eye, of all that was added so far
 
@@ -70,6 +88,8 @@ struct SurfacePacket {
     Lanes<float> coverage;      ///< share of the light from behind that the surface hides, 0..1
     Lanes<float> transmission;  ///< share of the base that lets light through
     Lanes<float> reflected;     ///< share of the specular light that reflected rays bring; the rest is in `radiance`
+
+    RichSurface more[kLaneCount];  ///< of `rich` lanes alone
 };
 
 /// What one light, or one sample of it, adds to a packet where nothing is in its way.
@@ -106,6 +126,9 @@ void add_light(const LightPacket& light, LaneMask reached, float scale, SurfaceP
 /// sRGB-coded colours of radiance times `exposure`.
 void encode(const Lanes3& radiance, float exposure, Lanes<std::uint32_t>& color) noexcept;
 
+/// What a ray sees along a direction (unit) where nothing is hit, in a cone that widens by `spread`.
+glm::vec3 background_light(const ShadingContext& context, const glm::vec3& direction, float spread) noexcept;
+
 /// Light from all around that comes from a direction (unit): the environment's, seen through a cone that widens by
 /// `spread`, and the ambient light. Stands for rays that are not traced.
 glm::vec3 surrounding_light(const ShadingContext& context, const glm::vec3& direction, float spread) noexcept;
@@ -123,10 +146,9 @@ inline float glossy_share(float roughness) {
     return t * t * (3.0F - 2.0F * t);
 }
 
-/// Full width of the cone that holds half of a reflected GGX lobe, per metre: the microfacets' tilt has a tangent below
-/// alpha in half of the cases, and reflection doubles it, to each side.
+/// Full width, per metre, of the cone that holds half of a reflected GGX lobe.
 inline float lobe_spread(float roughness) {
-    return 4.0F * roughness * roughness;
+    return 2.0F * kernels::lobe_half_width_tan(roughness * roughness);
 }
 
 }  // namespace macula

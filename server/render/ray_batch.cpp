@@ -21,8 +21,8 @@ using glm::vec3;
 /// Needs for which rays know how wide their footprint is.
 constexpr std::uint32_t kFootprintNeeds = kNeedTextures | kNeedNormalMaps | kNeedEnvironment | kBranchingNeeds;
 
-/// Most rays that one hit sends on: past it, off its base, through it.
-constexpr std::size_t kChildren = 3;
+/// Most rays that one hit sends on: past it, off its base, off its coat, through it.
+constexpr std::size_t kChildren = 4;
 
 /// Paths have at most this many rays in a row.
 constexpr std::size_t kLongestPath = kLayerBound + 8;

@@ -18,6 +18,9 @@ float largest(const vec3& v) {
 /// A share of coverage or light below which nothing is sent on: it changes no code of the display.
 constexpr float kNothing = 1.0F / 1024.0F;
 
+/// Cosine between normals above which coat and base reflect the same.
+constexpr float kSameNormal = 0.9999F;
+
 /// One lane of a packet, from which rays are sent.
 class Branch {
 public:
@@ -45,10 +48,19 @@ public:
         rest_ = vec3(0.0F);
         if ((instance_.needs & kNeedBlending) != 0) send_past();
         if (coverage_ > kNothing && ((surfaces_.lit >> lane_) & 1U) != 0) {
-            if (surfaces_.transmission[lane_] > 0.0F) {
-                send_through_glass();
-            } else if (surfaces_.reflected[lane_] > 0.0F) {
-                send_reflection();
+            layered_ = ((surfaces_.layered >> lane_) & 1U) != 0;
+            if (layered_) passes_ = surfaces_.more[lane_].layers.passes;
+            const bool coat = layered_ && surfaces_.more[lane_].coat_reflected > 0.0F;
+            const bool glass = surfaces_.transmission[lane_] > 0.0F;
+            const bool base = !glass && surfaces_.reflected[lane_] > 0.0F;
+            if (glass) send_through_glass();
+            if (coat && base && glm::dot(surfaces_.more[lane_].coat_normal, surfaces_.normal[lane_]) > kSameNormal) {
+                send_both_reflections();
+            } else {
+                if (base) send_reflection(base_weight(), surfaces_.normal[lane_], surfaces_.roughness[lane_]);
+                if (coat)
+                    send_reflection(coat_weight(), surfaces_.more[lane_].coat_normal,
+                                    surfaces_.more[lane_].coat_roughness);
             }
         }
         radiance = radiance * coverage_ + rest_;
@@ -59,7 +71,8 @@ private:
     enum class Side { same, other };
 
     [[nodiscard]] vec3 origin(Side side) const {
-        return kernels::leave_surface(point_, side == Side::same ? normal_ : -normal_, segment_m_);
+        return kernels::leave_surface(point_, side == Side::same ? normal_ : -normal_,
+                                      std::max(segment_m_, surfaces_.plane_extent_m[lane_]));
     }
 
     /// Sends a ray that brings `weight` of its radiance. What the bounds hold back comes from the environment.
@@ -106,27 +119,43 @@ private:
         return std::sqrt(turn_sq / std::max(glm::length(hits_.geometric_normal[lane_]), 1e-20F));
     }
 
-    /// A path after a reflection at this surface.
-    [[nodiscard]] RayPath reflected_path() const {
+    /// A path after a reflection at a lobe of this surface.
+    [[nodiscard]] RayPath reflected_path(float roughness) const {
         RayPath child = path_;
         child.reflection = true;
-        child.spread += lobe_spread(surfaces_.roughness[lane_]) + 2.0F * curvature() * hits_.width_m[lane_];
+        child.spread += lobe_spread(roughness) + 2.0F * curvature() * hits_.width_m[lane_];
         return child;
     }
 
+    [[nodiscard]] vec3 base_weight() const {
+        return surfaces_.surface.specular_albedo[lane_] * (passes_ * coverage_ * surfaces_.reflected[lane_]);
+    }
+    [[nodiscard]] vec3 coat_weight() const {
+        const RichSurface& more = surfaces_.more[lane_];
+        return vec3((1.0F - more.layers.coat_passes) * coverage_ * more.coat_reflected);
+    }
+
     /// The bound has been applied to its share already.
-    void send_reflection() {
-        RayPath child = reflected_path();
+    void send_reflection(const vec3& weight, const vec3& normal, float roughness) {
+        RayPath child = reflected_path(roughness);
         --child.bounces;
-        const vec3 weight = surfaces_.surface.specular_albedo[lane_] * (coverage_ * surfaces_.reflected[lane_]);
-        push(child, weight, Side::same, mirrored(surfaces_.normal[lane_]));
+        push(child, weight, Side::same, mirrored(normal));
+    }
+
+    /// One ray for coat and base, with the mean of their widths.
+    void send_both_reflections() {
+        const vec3 base = base_weight();
+        const vec3 coat = coat_weight();
+        const float share = largest(coat) / std::max(largest(coat + base), 1e-20F);
+        const float roughness = glm::mix(surfaces_.roughness[lane_], surfaces_.more[lane_].coat_roughness, share);
+        send_reflection(base + coat, surfaces_.normal[lane_], roughness);
     }
 
     /// Reflection and transmission of an interface whose exact share of reflection is `reflectance`.
     void send_split(float reflectance, const vec3& through, bool inside, std::uint32_t volume_behind,
                     const vec3& normal) {
         const float pass = surfaces_.transmission[lane_] * (1.0F - surfaces_.metallic[lane_]);
-        RayPath reflection = reflected_path();
+        RayPath reflection = reflected_path(surfaces_.roughness[lane_]);
         const bool total = reflectance >= 1.0F;
         if (total && reflection.layers > 0) --reflection.layers;
         if (!total && reflection.bounces > 0) --reflection.bounces;
@@ -137,14 +166,14 @@ private:
         if (inside) {
             reflection.volume = hits_.instance[lane_] + 1;
         }
-        send_bounded(reflection, mirror * coverage_, Side::same, mirrored(normal), may_reflect);
+        send_bounded(reflection, mirror * (coverage_ * passes_), Side::same, mirrored(normal), may_reflect);
         if (total) return;
         RayPath child = path_;
         child.reflection = false;
         child.volume = volume_behind;
         child.spread += lobe_spread(surfaces_.roughness[lane_]) * 0.5F;
         if (child.layers > 0) --child.layers;
-        const vec3 weight = surfaces_.base_color[lane_] * (pass * (1.0F - reflectance) * coverage_);
+        const vec3 weight = surfaces_.base_color[lane_] * (pass * (1.0F - reflectance) * coverage_ * passes_);
         if (largest(weight) <= 0.0F) return;
         send_bounded(child, weight, Side::other, through, path_.layers > 0);
     }
@@ -183,6 +212,8 @@ private:
     vec3 normal_{};  ///< geometric, on the viewer's side
     vec3 rest_{};
     float segment_m_ = 0.0F;
+    float passes_ = 1.0F;  ///< share of light that layers on top let through
+    bool layered_ = false;
     float coverage_ = 1.0F;
 };
 

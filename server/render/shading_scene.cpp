@@ -54,6 +54,22 @@ void move(Light& light, const glm::mat4& now_from_start) {
     light.half_v_m = turn * light.half_v_m;
 }
 
+/// ShadingInstance::plane_extent_m of a mesh.
+float plane_extent(const Mesh& mesh, const glm::mat3& world_from_mesh, bool any_turn) {
+    float largest = 0.0F;
+    for (const glm::uvec3& t : mesh.triangle) {
+        const glm::vec3 a = world_from_mesh * mesh.position_m[t.x];
+        const glm::vec3 b = world_from_mesh * mesh.position_m[t.y];
+        const glm::vec3 c = world_from_mesh * mesh.position_m[t.z];
+        const glm::vec3 extent = glm::max(a, glm::max(b, c)) - glm::min(a, glm::min(b, c));
+        const glm::vec3 across = glm::abs(glm::cross(b - a, c - a));
+        const float length = glm::length(across);
+        const float sum = any_turn ? glm::length(extent) : glm::dot(across, extent) / std::max(length, 1e-30F);
+        largest = std::max(largest, sum);
+    }
+    return largest;
+}
+
 template <class T>
 std::size_t bytes_of(const std::vector<std::vector<T>>& arrays) {
     std::size_t bytes = 0;
@@ -80,6 +96,11 @@ ShadingScene::ShadingScene(std::shared_ptr<const Scene> scene) : scene_(std::mov
     for (const glm::mat4& node : world_from_node) node_from_world_.push_back(glm::inverse(node));
     lights_ = lights_at(world_from_node);
     needs_ = scene_needs(*scene_).needs;
+    if ((needs_ & kNeedEnvironment) != 0) {
+        const Environment& environment = scene_->environment;
+        environment_ = std::make_unique<EnvironmentMap>(scene_->images[static_cast<std::size_t>(environment.image)],
+                                                        environment.intensity, environment.rotation_rad);
+    }
 }
 
 std::vector<ShadingLight> ShadingScene::lights_at(const std::vector<glm::mat4>& world_from_node) const {
@@ -106,6 +127,9 @@ void ShadingScene::add_instance(const Instance& instance, std::uint32_t needs) {
     const bool mirrored = !result.moves && mirrors(instance);
     const glm::mat3 normal_matrix = glm::transpose(glm::inverse(world_from_mesh));
     result.material = &material;
+    result.position = mesh.position_m.data();
+    result.world_from_mesh = world_from_mesh;
+    result.plane_extent_m = plane_extent(mesh, world_from_mesh, result.moves);
     result.absorption_per_m = kernels::absorption_per_m(material.attenuation_color, material.attenuation_distance_m);
     result.triangle = mesh.triangle.data();
     if (mirrored) {
@@ -142,18 +166,29 @@ void ShadingScene::add_instance(const Instance& instance, std::uint32_t needs) {
         if (!mesh.tangent.empty())
             add_texture(material.normal_texture, kNormalTexture, result.normal_map, TextureContent::normals);
     }
-    if ((result.features & kNormalTexture) != 0) {
+    constexpr std::uint32_t kExtended = kNeedTransmission | kNeedRefraction | kNeedSpecular | kLayerNeeds;
+    if (!material.unlit && (needs & kExtended) != 0) {
+        ShadingExtension extension;
+        const std::uint32_t plain = result.features;
+        add_texture(material.transmission_texture, kTransmissionTexture, extension.transmission);
+        add_texture(material.specular_texture, kSpecularTexture, extension.specular);
+        add_texture(material.specular_color_texture, kSpecularColorTexture, extension.specular_color);
+        add_texture(material.clearcoat_texture, kClearcoatTexture, extension.clearcoat);
+        add_texture(material.clearcoat_roughness_texture, kClearcoatRoughnessTexture, extension.clearcoat_roughness);
+        if (!mesh.tangent.empty())
+            add_texture(material.clearcoat_normal_texture, kClearcoatNormalTexture, extension.clearcoat_normal,
+                        TextureContent::normals);
+        add_texture(material.sheen_color_texture, kSheenColorTexture, extension.sheen_color);
+        add_texture(material.sheen_roughness_texture, kSheenRoughnessTexture, extension.sheen_roughness);
+        if (result.features != plain)
+            result.extension = extensions_.emplace_back(std::make_unique<ShadingExtension>(extension)).get();
+    }
+    if ((result.features & (kNormalTexture | kClearcoatNormalTexture)) != 0) {
         // The bitangent keeps its side of the mirrored normal and tangent: cross products flip.
         const float handedness = mirrored ? -1.0F : 1.0F;
         auto& tangents = tangents_.emplace_back(mesh.tangent);
         for (glm::vec4& t : tangents) t = glm::vec4(glm::normalize(world_from_mesh * glm::vec3(t)), t.w * handedness);
         result.tangent = tangents.data();
-    }
-    if (!material.unlit && (needs & (kNeedTransmission | kNeedRefraction)) != 0) {
-        ShadingExtension extension;
-        add_texture(material.transmission_texture, kTransmissionTexture, extension.transmission);
-        if ((result.features & kTransmissionTexture) != 0)
-            result.extension = extensions_.emplace_back(std::make_unique<ShadingExtension>(extension)).get();
     }
     instances_.push_back(result);
 }
@@ -166,8 +201,8 @@ ShadingTexture ShadingScene::texture(const TextureUse& use, const Mesh& mesh, Te
 
 std::size_t ShadingScene::memory_bytes() const {
     return instances_.capacity() * sizeof(ShadingInstance) + bytes_of(normals_) + bytes_of(tangents_) +
-           bytes_of(mirrored_triangles_) + extensions_.size() * sizeof(ShadingExtension) +
-           textures_.memory_bytes();
+           bytes_of(mirrored_triangles_) + extensions_.size() * sizeof(ShadingExtension) + textures_.memory_bytes() +
+           (environment_ ? environment_->memory_bytes() : 0);
 }
 
 }  // namespace macula

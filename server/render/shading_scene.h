@@ -12,6 +12,7 @@
 #include "scenes/scene.h"
 #include "server/kernels/area_light.h"
 #include "server/kernels/light.h"
+#include "server/render/environment.h"
 #include "server/render/texture_lookup.h"
 
 namespace macula {
@@ -25,11 +26,21 @@ enum Feature : std::uint32_t {
     kEmissiveTexture = 1U << 4,
     kUnlit = 1U << 5,
     kTransmissionTexture = 1U << 6,
+    kSpecularTexture = 1U << 7,
+    kSpecularColorTexture = 1U << 8,
+    kClearcoatTexture = 1U << 9,
+    kClearcoatRoughnessTexture = 1U << 10,
+    kClearcoatNormalTexture = 1U << 11,
+    kSheenColorTexture = 1U << 12,
+    kSheenRoughnessTexture = 1U << 13,
 };
 
 /// Needs of surfaces from which rays may go on.
 inline constexpr std::uint32_t kBranchingNeeds =
     kNeedBlending | kNeedTransmission | kNeedRefraction | kNeedMirrors | kNeedGloss;
+
+/// Needs of surfaces that have layers on top.
+inline constexpr std::uint32_t kLayerNeeds = kNeedClearcoat | kNeedSheen;
 
 /// A texture as one instance reads it.
 struct ShadingTexture {
@@ -40,18 +51,32 @@ struct ShadingTexture {
 /// Textures of an instance whose material has extensions.
 struct ShadingExtension {
     ShadingTexture transmission;
+    ShadingTexture specular;
+    ShadingTexture specular_color;
+    ShadingTexture clearcoat;
+    ShadingTexture clearcoat_roughness;
+    ShadingTexture clearcoat_normal;
+    ShadingTexture sheen_color;
+    ShadingTexture sheen_roughness;
 };
 
 /// One instance with its material. Pointers are to the scene or to the ShadingScene.
 struct ShadingInstance {
     const glm::uvec3* triangle = nullptr;
-    const glm::vec3* normal = nullptr;   ///< unit; world space, or mesh space where the instance moves
-    const glm::vec4* tangent = nullptr;  ///< in the same space; present with kNormalTexture
-    const glm::vec4* color = nullptr;    ///< present with kVertexColor
+    const glm::vec3* normal = nullptr;    ///< unit; world space, or mesh space where the instance moves
+    const glm::vec4* tangent = nullptr;   ///< in the same space; present with a normal texture
+    const glm::vec3* position = nullptr;  ///< mesh space, m
+    const glm::vec4* color = nullptr;     ///< present with kVertexColor
     const Material* material = nullptr;
     std::uint32_t features = 0;  ///< of `Feature`
     std::uint32_t needs = 0;     ///< of `Need`
     bool moves = false;
+    /// Directions of mesh space in world space; of a moving instance, unity: its place has them.
+    glm::mat3 world_from_mesh = glm::mat3(1.0F);
+    /// What rays miss the planes of its largest triangles by, in units of the last place of a float: Embree's hit
+    /// distance is wrong by some of those of the sum over the axes of |normal| * extent. Of a moving instance, in mesh
+    /// space and for the worst turn.
+    float plane_extent_m = 0.0F;
     glm::vec3 absorption_per_m = glm::vec3(0.0F);  ///< of the volume that the mesh encloses
     ShadingTexture base_color;
     ShadingTexture metallic_roughness;
@@ -84,6 +109,8 @@ public:
     [[nodiscard]] const std::vector<ShadingLight>& lights() const { return lights_; }
     /// The same lights where the animation's nodes stand at `world_from_node`.
     [[nodiscard]] std::vector<ShadingLight> lights_at(const std::vector<glm::mat4>& world_from_node) const;
+    /// Null where the scene has none.
+    [[nodiscard]] const EnvironmentMap* environment() const { return environment_.get(); }
     /// What all surfaces and lights need, of `Need`.
     [[nodiscard]] std::uint32_t needs() const { return needs_; }
     /// Bytes beyond those of the scene.
@@ -99,6 +126,7 @@ private:
     std::vector<ShadingLight> lights_;
     std::vector<glm::mat4> node_from_world_;  ///< of the animation's nodes at time 0
     std::uint32_t needs_ = 0;
+    std::unique_ptr<const EnvironmentMap> environment_;
     // The inner vectors never move once filled.
     std::vector<std::vector<glm::vec3>> normals_;
     std::vector<std::vector<glm::vec4>> tangents_;

@@ -1,5 +1,8 @@
 #include "server/render/surface_fetch.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "server/kernels/fresnel.h"
 #include "server/kernels/shade.h"
 
@@ -22,80 +25,207 @@ struct Corners {
     }
 };
 
-vec4 look_up(const ShadingTexture& texture, const Corners& corners) {
-    return look_up(texture.view, corners.of(texture.uv));
-}
+/// Reads textures at a point, without a footprint. For holes and shadows.
+class PointReader {
+public:
+    PointReader(const ShadingInstance& instance, const Corners& corners) : instance_(instance), corners_(corners) {}
 
-vec4 base_color(const ShadingInstance& instance, const Corners& corners) {
+    [[nodiscard]] vec4 operator()(const ShadingTexture& texture) {
+        return look_up(texture.view, corners_.of(texture.uv));
+    }
+    [[nodiscard]] const ShadingInstance& instance() const { return instance_; }
+    [[nodiscard]] const Corners& corners() const { return corners_; }
+
+private:
+    const ShadingInstance& instance_;
+    const Corners& corners_;
+};
+
+/// Reads textures under a ray's footprint, which is worked out once for each set of coordinates.
+class FootprintReader {
+public:
+    FootprintReader(const ShadingInstance& instance, const Corners& corners, const glm::mat3& world_from_mesh,
+                    const vec3& direction, float width_m)
+        : instance_(instance),
+          corners_(corners),
+          world_from_mesh_(world_from_mesh),
+          direction_(direction),
+          width_m_(width_m) {}
+
+    [[nodiscard]] vec4 operator()(const ShadingTexture& texture) {
+        return look_up(texture.view, corners_.of(texture.uv), footprint(texture.uv));
+    }
+    [[nodiscard]] NormalLookup normal(const ShadingTexture& texture) {
+        return look_up_normal(texture.view, corners_.of(texture.uv), footprint(texture.uv));
+    }
+    [[nodiscard]] const ShadingInstance& instance() const { return instance_; }
+    [[nodiscard]] const Corners& corners() const { return corners_; }
+
+private:
+    [[nodiscard]] const kernels::UvFootprint& footprint(const vec2* uv) {
+        if (uv == uv_) return footprint_;
+        uv_ = uv;
+        const vec3* p = instance_.position;
+        const glm::uvec3& t = corners_.index;
+        footprint_ =
+            kernels::uv_footprint(width_m_, kernels::safe_normalize(direction_), world_from_mesh_ * (p[t.y] - p[t.x]),
+                                  world_from_mesh_ * (p[t.z] - p[t.x]), uv[t.y] - uv[t.x], uv[t.z] - uv[t.x]);
+        return footprint_;
+    }
+
+    const ShadingInstance& instance_;
+    const Corners& corners_;
+    const glm::mat3& world_from_mesh_;
+    vec3 direction_;
+    float width_m_;
+    const vec2* uv_ = nullptr;
+    kernels::UvFootprint footprint_{};
+};
+
+template <class Reader>
+vec4 base_color(Reader& read) {
+    const ShadingInstance& instance = read.instance();
     vec4 color = instance.material->base_color;
-    if ((instance.features & kVertexColor) != 0) color *= corners.of(instance.color);
-    if ((instance.features & kBaseColorTexture) != 0) color *= look_up(instance.base_color, corners);
+    if ((instance.features & kVertexColor) != 0) color *= read.corners().of(instance.color);
+    if ((instance.features & kBaseColorTexture) != 0) color *= read(instance.base_color);
     return color;
 }
 
-float transmission_of(const ShadingInstance& instance, const Corners& corners) {
-    float share = instance.material->transmission;
-    if ((instance.features & kTransmissionTexture) != 0) share *= look_up(instance.extension->transmission, corners).x;
-    return share;
+template <class Reader>
+float transmission_of(Reader& read) {
+    const ShadingInstance& instance = read.instance();
+    const bool textured = (instance.features & kTransmissionTexture) != 0;
+    return instance.material->transmission * (textured ? read(instance.extension->transmission).x : 1.0F);
 }
 
-/// The rarer part of a material, for lanes whose instance has more than a base colour.
-void apply_textures(const ShadingInstance& instance, const InstancePlace* place, const Corners& corners, int lane,
-                    SurfacePacket& surfaces) {
-    const Material& material = *instance.material;
-    if ((instance.features & kMetallicRoughnessTexture) != 0) {
-        const vec4 t = look_up(instance.metallic_roughness, corners);
-        surfaces.roughness[lane] *= t.y;
-        surfaces.metallic[lane] *= t.z;
-    }
-    if ((instance.features & kEmissiveTexture) != 0) {
-        const vec4 t = look_up(instance.emissive, corners);
-        surfaces.radiance.set(lane, material.emissive * vec3(t));
-    }
-    if ((instance.features & kNormalTexture) != 0) {
-        const vec3 normal = kernels::safe_normalize(surfaces.normal[lane]);
-        const vec4 t = look_up(instance.normal_map, corners);
-        vec4 tangent = corners.of(instance.tangent);
-        if (place != nullptr)
-            tangent =
-                vec4(kernels::safe_normalize(place->world_from_mesh * vec3(tangent)), tangent.w * place->handedness);
-        surfaces.normal.set(lane, kernels::map_normal(normal, tangent, vec3(t), material.normal_scale));
-    }
+float coverage_of(const ShadingInstance& instance, float alpha) {
+    return (instance.needs & kNeedBlending) != 0 ? glm::clamp(alpha, 0.0F, 1.0F) : 1.0F;
 }
 
-/// What only lanes have from which rays go on.
-void fetch_branching(const ShadingInstance& instance, const Corners& corners, float alpha, int lane,
-                     SurfacePacket& surfaces) {
-    surfaces.branching |= 1U << lane;
-    surfaces.coverage[lane] = (instance.needs & kNeedBlending) != 0 ? glm::clamp(alpha, 0.0F, 1.0F) : 1.0F;
-    const bool transmits = (instance.needs & (kNeedTransmission | kNeedRefraction)) != 0;
-    surfaces.transmission[lane] = transmits ? transmission_of(instance, corners) : 0.0F;
-    surfaces.reflected[lane] = 0.0F;
+/// Tangent of a hit in world space.
+vec4 tangent_at(const ShadingInstance& instance, const InstancePlace* place, const Corners& corners) {
+    const vec4 tangent = corners.of(instance.tangent);
+    if (place == nullptr) return tangent;
+    return {kernels::safe_normalize(place->world_from_mesh * vec3(tangent)), tangent.w * place->handedness};
 }
+
+/// Where one lane's textures are read to.
+class LaneFetch {
+public:
+    LaneFetch(const ShadingInstance& instance, const InstancePlace* place, FootprintReader& read, int lane,
+              SurfacePacket& surfaces)
+        : instance_(instance),
+          material_(*instance.material),
+          place_(place),
+          read_(read),
+          lane_(lane),
+          surfaces_(surfaces) {}
+
+    /// The rarer part of a plain material.
+    void apply_textures() {
+        if (has(kMetallicRoughnessTexture)) {
+            const vec4 t = read_(instance_.metallic_roughness);
+            surfaces_.roughness[lane_] *= t.y;
+            surfaces_.metallic[lane_] *= t.z;
+        }
+        if (has(kEmissiveTexture)) {
+            const vec4 t = read_(instance_.emissive);
+            surfaces_.radiance.set(lane_, material_.emissive * vec3(t));
+        }
+        if (has(kNormalTexture)) {
+            float roughness = surfaces_.roughness[lane_];
+            surfaces_.normal.set(lane_, bend(instance_.normal_map, material_.normal_scale, roughness));
+            surfaces_.roughness[lane_] = roughness;
+        }
+    }
+
+    /// What extensions add. The normal is still the geometry's.
+    void apply_extensions() {
+        surfaces_.rich |= 1U << lane_;
+        RichSurface& more = surfaces_.more[lane_];
+        const ShadingExtension* extension = instance_.extension;
+        float specular = material_.specular;
+        vec3 color = material_.specular_color;
+        if (has(kSpecularTexture)) specular *= read_(extension->specular).w;
+        if (has(kSpecularColorTexture)) color *= vec3(read_(extension->specular_color));
+        const float f0 = kernels::fresnel_f0(material_.ior);
+        more.dielectric_f0 = glm::min(color * f0, vec3(1.0F)) * specular;
+        more.dielectric_f90 = specular;
+        if ((instance_.needs & kLayerNeeds) == 0) return;
+        surfaces_.layered |= 1U << lane_;
+        more.coat = material_.clearcoat;
+        more.coat_roughness = material_.clearcoat_roughness;
+        more.coat_normal = surfaces_.normal[lane_];
+        more.sheen_color = material_.sheen_color;
+        more.sheen_roughness = material_.sheen_roughness;
+        more.coat_reflected = 0.0F;
+        if (has(kClearcoatTexture)) more.coat *= read_(extension->clearcoat).x;
+        if (has(kClearcoatRoughnessTexture)) more.coat_roughness *= read_(extension->clearcoat_roughness).y;
+        if (has(kSheenColorTexture)) more.sheen_color *= vec3(read_(extension->sheen_color));
+        if (has(kSheenRoughnessTexture)) more.sheen_roughness *= read_(extension->sheen_roughness).w;
+        if (has(kClearcoatNormalTexture))
+            more.coat_normal = bend(extension->clearcoat_normal, material_.clearcoat_normal_scale, more.coat_roughness);
+    }
+
+    /// What only lanes have from which paths branch.
+    void apply_branching(float alpha) {
+        surfaces_.branching |= 1U << lane_;
+        surfaces_.coverage[lane_] = coverage_of(instance_, alpha);
+        const bool transmits = (instance_.needs & (kNeedTransmission | kNeedRefraction)) != 0;
+        surfaces_.transmission[lane_] = transmits ? transmission_of(read_) : 0.0F;
+        surfaces_.reflected[lane_] = 0.0F;
+    }
+
+private:
+    [[nodiscard]] bool has(Feature feature) const { return (instance_.features & feature) != 0; }
+
+    /// Normal of a normal map over the lane's; the detail that the footprint averages widens the lobe.
+    vec3 bend(const ShadingTexture& map, float scale, float& roughness) {
+        const NormalLookup found = read_.normal(map);
+        if (found.variance > 0.0F) {
+            const float alpha = roughness * roughness;
+            roughness = std::sqrt(std::min(std::sqrt(alpha * alpha + found.variance * scale * scale), 1.0F));
+        }
+        const vec3 normal = kernels::safe_normalize(surfaces_.normal[lane_]);
+        const vec4 tangent = tangent_at(instance_, place_, read_.corners());
+        return kernels::map_normal(normal, tangent, found.normal * 0.5F + 0.5F, scale);
+    }
+
+    const ShadingInstance& instance_;
+    const Material& material_;
+    const InstancePlace* place_;
+    FootprintReader& read_;
+    int lane_;
+    SurfacePacket& surfaces_;
+};
 
 }  // namespace
 
 vec4 base_color_at(const ShadingInstance& instance, const TriangleHit& hit) noexcept {
-    return base_color(instance, {instance.triangle[hit.triangle], hit.u, hit.v});
+    const Corners corners{instance.triangle[hit.triangle], hit.u, hit.v};
+    PointReader read(instance, corners);
+    return base_color(read);
 }
 
 vec3 light_past(const ShadingInstance& instance, const TriangleHit& hit, float cosine) noexcept {
     const Corners corners{instance.triangle[hit.triangle], hit.u, hit.v};
-    const vec4 color = base_color(instance, corners);
-    const float coverage = (instance.needs & kNeedBlending) != 0 ? glm::clamp(color.w, 0.0F, 1.0F) : 1.0F;
+    PointReader read(instance, corners);
+    const vec4 color = base_color(read);
+    const float coverage = coverage_of(instance, color.w);
     vec3 share(1.0F - coverage);
     if ((instance.needs & (kNeedTransmission | kNeedRefraction)) == 0) return share;
     float metallic = instance.material->metallic;
-    if ((instance.features & kMetallicRoughnessTexture) != 0)
-        metallic *= look_up(instance.metallic_roughness, corners).z;
+    if ((instance.features & kMetallicRoughnessTexture) != 0) metallic *= read(instance.metallic_roughness).z;
     const float reflectance = kernels::fresnel_dielectric(cosine, instance.material->ior);
     const bool thin = (instance.needs & kNeedTransmission) != 0;
     const float passes = thin ? kernels::pane_transmittance(reflectance) : 1.0F - reflectance;
-    share += vec3(color) * (coverage * transmission_of(instance, corners) * (1.0F - metallic) * passes);
+    share += vec3(color) * (coverage * transmission_of(read) * (1.0F - metallic) * passes);
     return share;
 }
 
 void fetch_surfaces(const ShadingContext& context, const HitPacket& hits, SurfacePacket& surfaces) noexcept {
+    constexpr std::uint32_t kTextured = kMetallicRoughnessTexture | kEmissiveTexture | kNormalTexture;
+    constexpr std::uint32_t kRichNeeds = kNeedTransmission | kNeedRefraction | kNeedSpecular | kLayerNeeds;
     const ShadingInstance* instances = context.scene.instances().data();
     const bool animated = !context.pose.places.empty();
     for_each_lane(hits.hit, [&](int lane) {
@@ -106,21 +236,22 @@ void fetch_surfaces(const ShadingContext& context, const HitPacket& hits, Surfac
         const InstancePlace* place = animated && instance.moves ? &context.pose.places[index] : nullptr;
         const vec3 normal = corners.of(instance.normal);
         surfaces.normal.set(lane, place == nullptr ? normal : place->normal_matrix * normal);
-        const vec4 color = base_color(instance, corners);
+        surfaces.plane_extent_m[lane] = instance.plane_extent_m * (place == nullptr ? 1.0F : place->stretch);
+        const glm::mat3& world_from_mesh = place == nullptr ? instance.world_from_mesh : place->world_from_mesh;
+        FootprintReader read(instance, corners, world_from_mesh, hits.direction[lane], hits.width_m[lane]);
+        const vec4 color = base_color(read);
         surfaces.base_color.set(lane, vec3(color));
         surfaces.metallic[lane] = material.metallic;
         surfaces.roughness[lane] = material.roughness;
         surfaces.radiance.set(lane, material.emissive);
-        constexpr std::uint32_t kRare = kMetallicRoughnessTexture | kEmissiveTexture | kNormalTexture | kUnlit;
-        if ((instance.features & kRare) != 0) {
-            if ((instance.features & kUnlit) != 0) {
-                surfaces.lit &= ~(1U << lane);
-            } else {
-                apply_textures(instance, place, corners, lane, surfaces);
-            }
+        LaneFetch fetch(instance, place, read, lane, surfaces);
+        if ((instance.features & kUnlit) != 0) {
+            surfaces.lit &= ~(1U << lane);
+        } else {
+            if ((instance.needs & context.needs & kRichNeeds) != 0) fetch.apply_extensions();
+            if ((instance.features & kTextured) != 0) fetch.apply_textures();
         }
-        if ((instance.needs & context.needs & kBranchingNeeds) != 0)
-            fetch_branching(instance, corners, color.w, lane, surfaces);
+        if ((instance.needs & context.needs & kBranchingNeeds) != 0) fetch.apply_branching(color.w);
     });
 }
 
