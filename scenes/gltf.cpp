@@ -87,10 +87,11 @@ private:
         return add_instances(node, element, placed);
     }
 
-    /// Cameras are chosen by name: a second one of a name gets a number.
+    /// Cameras are chosen by name: another one of a name gets a number.
     void add_camera(SceneCamera camera) {
-        const int before = camera_names_[camera.name]++;
-        if (before > 0) camera.name += " (" + std::to_string(before + 1) + ")";
+        const std::string name = camera.name;
+        while (!camera_names_.insert(camera.name).second)
+            camera.name = name + " (" + std::to_string(++camera_numbers_.try_emplace(name, 1).first->second) + ")";
         scene_.cameras.push_back(std::move(camera));
     }
 
@@ -136,7 +137,8 @@ private:
     Scene scene_;
     GltfMaterialReader materials_;
     std::vector<std::optional<std::vector<int>>> meshes_;  ///< scene meshes by glTF mesh, once read
-    std::map<std::string, int> camera_names_;              ///< how many cameras have it
+    std::set<std::string> camera_names_;
+    std::map<std::string, int> camera_numbers_;  ///< the last that was given to a name
 };
 
 Expected<LoadedScene> load(std::span<const std::uint8_t> bytes, const std::string& name, const std::string& folder,

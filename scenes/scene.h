@@ -69,7 +69,7 @@ struct Material {
     glm::vec4 base_color = glm::vec4(1.0F);
     float metallic = 1.0F;
     float roughness = 1.0F;
-    glm::vec3 emissive = glm::vec3(0.0F);
+    glm::vec3 emissive = glm::vec3(0.0F);  ///< radiance, KHR_materials_emissive_strength included
     float normal_scale = 1.0F;
     float alpha_cutoff = 0.5F;
     AlphaMode alpha_mode = AlphaMode::opaque;
@@ -104,7 +104,7 @@ struct Material {
     float thickness_m = 0.0F;
     TextureUse thickness_texture;         ///< G
     float attenuation_distance_m = 0.0F;  ///< distance in which white light turns into attenuation_color; 0: clear
-    glm::vec3 attenuation_color = glm::vec3(1.0F);
+    glm::vec3 attenuation_color = glm::vec3(1.0F);  ///< positive, so that its logarithm is finite
 };
 
 /// Indexed triangles of one material, in mesh space; the corners turn counter-clockwise on the front, and a mirroring
@@ -114,7 +114,7 @@ struct Mesh {
     int material = 0;
     std::vector<glm::vec3> position_m;
     std::vector<glm::vec3> normal;   ///< unit; never empty after loading (flat normals are made where absent)
-    std::vector<glm::vec4> tangent;  ///< unit xyz, w = +-1; present if the material has a normal texture
+    std::vector<glm::vec4> tangent;  ///< unit xyz, w = +-1; present if the material or its coat has a normal texture
     std::vector<glm::vec2> uv0;      ///< present if a texture of the material uses set 0
     std::vector<glm::vec2> uv1;      ///< present if a texture of the material uses set 1
     std::vector<glm::vec4> color;    ///< linear vertex colour, multiplies the base colour
@@ -132,6 +132,7 @@ struct Instance {
 enum class LightKind : std::uint8_t { directional, point, spot, rectangle };
 
 /// KHR_lights_punctual, with an extent for soft shadows, and rectangles. Shines along `direction` (world space, unit).
+/// Of a light that moves, position, direction and edges are those at time 0.
 struct Light {
     LightKind kind = LightKind::directional;
     glm::vec3 position_m = glm::vec3(0.0F);
@@ -160,9 +161,10 @@ struct Environment {
     [[nodiscard]] bool present() const { return image >= 0; }
 };
 
-/// A camera of the file: a pose to start from.
+/// A camera of the file: a pose to start from, with the pitch and roll that the file gives it; level_head() of
+/// scenes/framing.h takes them out. Of a camera that moves, at time 0.
 struct SceneCamera {
-    std::string name;
+    std::string name;  ///< different from those of the others
     Pose world_from_head;
 };
 
@@ -179,11 +181,11 @@ struct Scene {
     glm::vec3 background_radiance = glm::vec3(0.0F);  ///< what a ray that hits nothing sees
     /// Where present, what a ray that hits nothing sees, and light from everywhere, beside ambient_radiance.
     Environment environment;
-    Animation animation;          ///< moves the instances and lights that name a node of it
+    Animation animation;               ///< moves the instances and lights that name a node of it
     std::vector<SceneCamera> cameras;  ///< in the file's order
-    float exposure = 1.0F;        ///< radiance times exposure 1 is display white
-    Pose world_from_start;        ///< head pose at which a session begins
-    float near_m = 0.1F;          ///< nearest depth the depth stream resolves
+    float exposure = 1.0F;             ///< radiance times exposure 1 is display white
+    Pose world_from_start;             ///< head pose at which a session begins
+    float near_m = 0.1F;               ///< nearest depth the depth stream resolves
 
     [[nodiscard]] std::size_t triangle_count() const {
         std::size_t count = 0;

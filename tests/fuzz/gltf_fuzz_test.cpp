@@ -80,11 +80,13 @@ Bytes mutate(Bytes bytes, std::mt19937& random) {
     return bytes;
 }
 
-/// Every value of a document, containers included.
+/// Every value below `value`, containers included.
 void list_values(nlohmann::json& value, std::vector<nlohmann::json*>& all) {
-    all.push_back(&value);
-    if (value.is_structured())
-        for (nlohmann::json& member : value) list_values(member, all);
+    if (!value.is_structured()) return;
+    for (nlohmann::json& member : value) {
+        all.push_back(&member);
+        list_values(member, all);
+    }
 }
 
 /// Replaces, removes or doubles values: what gets past any parser, and means something else.
@@ -96,6 +98,7 @@ void mutate(nlohmann::json& document, std::mt19937& random) {
     for (std::size_t change = 1 + pick(random, 3); change > 0; --change) {
         std::vector<nlohmann::json*> all;
         list_values(document, all);
+        if (all.empty()) return;
         nlohmann::json& value = *all[pick(random, all.size())];
         switch (pick(random, 8)) {
             case 0:

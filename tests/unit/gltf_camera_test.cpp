@@ -85,6 +85,21 @@ TEST(GltfCamera, TheFirstOneCounts) {
     EXPECT_EQ(scene->world_from_start.position_m.x, 1.0F);
 }
 
+TEST(GltfCamera, NamesDifferWhateverTheyAre) {
+    GltfBuilder b = with_camera({{"translation", {1, 0, 0}}});
+    b.json["cameras"].push_back(b.json["cameras"][0]);
+    b.json["cameras"][1]["name"] = "porch (2)";
+    b.json["nodes"].push_back({{"camera", 1}});
+    b.json["nodes"].push_back({{"camera", 0}});
+    b.json["nodes"].push_back({{"camera", 0}});
+    b.json["scenes"] = {{{"nodes", {0, 1, 2, 3, 4}}}};
+    const auto scene = load(b);
+    ASSERT_EQ(scene->cameras.size(), 4U);
+    EXPECT_EQ(scene->cameras[1].name, "porch (2)");
+    EXPECT_EQ(scene->cameras[2].name, "porch (3)");
+    EXPECT_EQ(scene->cameras[3].name, "porch (4)");
+}
+
 TEST(GltfCamera, ScalesAndMirrorsOfItsNodeAreTakenOut) {
     const nlohmann::json rotation = turned(0.5F, 0.0F);
     const glm::vec3 ahead(-std::sin(0.5F), 0, -std::cos(0.5F));
