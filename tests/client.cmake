@@ -19,3 +19,5 @@ macula_test(client_program_test
     LINK macula_base)
 target_compile_definitions(client_program_test PRIVATE MACULA_CLIENT="$<TARGET_FILE:macula-client>")
 add_dependencies(client_program_test macula-client)
+macula_test(traced_reprojection_test SOURCES property/traced_reprojection_test.cpp
+    LINK macula_present macula_reconstruct macula_service macula_tracer TBB::tbb)
