@@ -1,7 +1,6 @@
 #include "scenes/gltf_node.h"
 
 #include <cmath>
-#include <utility>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
@@ -114,8 +113,8 @@ Expected<std::vector<PlacedNode>> list_gltf_nodes(const GltfContext& context) {
         PlacedNode listed;
         listed.node = index;
         listed.parent = next.parent;
-        listed.place = std::move(*place);
-        nodes.push_back(std::move(listed));
+        listed.place = *place;
+        nodes.push_back(listed);
         for (std::size_t i = node.children.size(); i-- > 0;) pending.push_back({node.children[i], parent});
     }
     return nodes;
