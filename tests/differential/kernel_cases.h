@@ -99,7 +99,8 @@ KERNEL KernelResult run_case(KernelCase k) {
     lamp.half_u = random_direction(k.d.x, k.d.y) * 0.5F;
     lamp.half_v = cross(lamp.half_u, random_direction(k.d.z, k.d.w));
     lamp.radiance = light.intensity;
-    LightSample r = sample_light(lamp, origin, stratified_place(int(3.99F * k.c.x), 2, vec2(k.b.z, k.b.w)));
+    LightSample r = sample_light(
+        lamp, origin, stratified_place(int(3.99F * k.c.x), 2, light_offset(int(9.0F * k.b.z), int(9.0F * k.b.w))));
     result.rect = vec4(r.irradiance.x, r.irradiance.y, r.irradiance.z, length(r.to_light));
 
     Refraction bent = refract_ray(view * -1.0F, normal, k.c.x > 0.5F ? 1.0F + k.a.x : 1.0F / (1.0F + k.a.x));
