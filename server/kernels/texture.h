@@ -48,11 +48,16 @@ KERNEL vec2 transform_uv(Texture t, vec2 uv) {
                 t.uv_scale_rotation.y * uv.x + t.uv_scale_rotation.w * uv.y + t.uv_offset.y);
 }
 
-/// Texels of a level of `size_px` around transformed coordinates; (0, 0) is the top left corner of the image.
-KERNEL TexelFootprint level_footprint(ivec2 size_px, ivec2 wrap, bool nearest, vec2 transformed) {
+/// Transformed coordinates as the wrap modes read them.
+KERNEL vec2 wrap_coordinates(vec2 transformed, ivec2 wrap) {
+    return vec2(wrap_coordinate(transformed.x, wrap.x), wrap_coordinate(transformed.y, wrap.y));
+}
+
+/// Texels of a level of `size_px` around wrapped coordinates; (0, 0) is the top left corner of the image.
+KERNEL TexelFootprint level_footprint(ivec2 size_px, ivec2 wrap, bool nearest, vec2 wrapped) {
     float shift = nearest ? 0.0F : 0.5F;
-    float px = wrap_coordinate(transformed.x, wrap.x) * float(size_px.x) - shift;
-    float py = wrap_coordinate(transformed.y, wrap.y) * float(size_px.y) - shift;
+    float px = wrapped.x * float(size_px.x) - shift;
+    float py = wrapped.y * float(size_px.y) - shift;
     float left = floor(px);
     float top = floor(py);
     int x = int(left);
@@ -66,7 +71,7 @@ KERNEL TexelFootprint level_footprint(ivec2 size_px, ivec2 wrap, bool nearest, v
 
 /// Texels that the texture itself reads at untransformed coordinates.
 KERNEL TexelFootprint texel_footprint(Texture t, vec2 uv) {
-    return level_footprint(t.size_px, t.wrap, t.nearest == 1, transform_uv(t, uv));
+    return level_footprint(t.size_px, t.wrap, t.nearest == 1, wrap_coordinates(transform_uv(t, uv), t.wrap));
 }
 
 /// Mixes the four texels of a footprint; the first index is the column's.
