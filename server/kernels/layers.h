@@ -10,7 +10,13 @@
 // smaller of T(n.v) and T(n.l), as KHR_materials_sheen has it, which keeps light and view interchangeable and is exact
 // for a mirror. Where a lobe is wide, light that left at a flatter angle is then missing. It was reflected back down:
 // over metal it goes into a lobe of its own as the light between microfacets does, over a dielectric into the base.
-// The base takes what is left, as in brdf.h: R(n.v) R(n.l) over the mean of R, R = T entry + missing (1 - entry).
+// The base takes what is left, as in brdf.h: R(n.v) R(n.l) over the mean of R, R = T entry + missing (1 - entry), and
+// what the sheen misses under a coat.
+//
+// White material under white layers then sends back, over all roughnesses and n.v >= .02 (layers_kernel_test): coated
+// dielectrics .993 to 1.008, coated metal .992 to 1.014 (more than 1.01 only where a coat of roughness .2 lies on metal
+// of roughness .15 seen at n.v = .08), dielectrics under sheen .983 to 1.009, metal under sheen .976 to 1.013, coated
+// dielectrics with sheen .978 to 1.017.
 
 KERNEL_BEGIN
 

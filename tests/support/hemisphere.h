@@ -17,7 +17,7 @@ inline glm::vec3 direction_at(double cosine, double phi = 0.0) {
 /// Integral of `f(light)` over the directions of the upper hemisphere, for an f that is symmetric about the plane of
 /// incidence of `view` (the xz plane) and may peak where a mirror in the xy plane reflects to. Midpoint rule in polar
 /// coordinates about that direction, whose polar angle is the cube of what is divided evenly: the first ring of 240 has
-/// a radius of 2e-7 rad; azimuths are dense about the plane of incidence, across which lobes at grazing angles are
+/// a radius of 3e-8 rad; azimuths are dense about the plane of incidence, across which lobes at grazing angles are
 /// narrow. So lobes of any roughness from .045 are resolved.
 template <class F>
 double integrate_over_lights(const glm::vec3& view, F&& f, int rings = 240, int sectors = 120) {
