@@ -9,8 +9,8 @@ macula_test(client_session_test SOURCES unit/client_session_test.cpp LINK macula
 macula_bench(taa_quality SOURCES bench/taa_quality.cpp LINK macula_present macula_device macula_reconstruct TBB::tbb)
 macula_test(compositor_test SOURCES property/compositor_test.cpp LINK macula_present TBB::tbb LABELS fast threads)
 macula_test(compositor_motion_test SOURCES property/compositor_motion_test.cpp
-    LINK macula_present macula_reconstruct macula_service TBB::tbb
-    LABELS fast)
+    LINK macula_present macula_reconstruct macula_service TBB::tbb)
+macula_test(object_motion_test SOURCES property/object_motion_test.cpp LINK macula_present TBB::tbb LABELS fast)
 macula_test(thin_wire_test SOURCES property/thin_wire_test.cpp LINK macula_present macula_reconstruct TBB::tbb)
 macula_test(picture_sink_test SOURCES unit/picture_sink_test.cpp LINK macula_present PkgConfig::FFMPEG LABELS fast)
 macula_test(client_options_test SOURCES unit/client_options_test.cpp LINK macula_client_parts LABELS fast)
