@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 #include <utility>
 
@@ -89,7 +90,7 @@ public:
     BlockTree(int height, Radiance&& radiance) : height_(height) {
         for (int rows = height; rows >= kLeastHeight_px; rows /= 2) {
             std::vector<Block> blocks;
-            blocks.reserve(static_cast<std::size_t>(2 * rows * rows));
+            blocks.reserve(2 * static_cast<std::size_t>(rows) * static_cast<std::size_t>(rows));
             for (int y = 0; y < rows; ++y)
                 for (int x = 0; x < 2 * rows; ++x)
                     blocks.push_back(level_.empty() ? finest(x, y, radiance(x, y)) : joined(x, y, 4 * rows));
@@ -125,7 +126,7 @@ private:
 
     /// Of the four blocks that are a block of the next size, whose rows have `width`.
     [[nodiscard]] Block joined(int x, int y, int width) const {
-        const Block* upper = &level_.back()[static_cast<std::size_t>(2 * y * width + 2 * x)];
+        const Block* upper = level_.back().data() + std::ptrdiff_t{2} * (std::ptrdiff_t{y} * width + x);
         Block block{};
         for (const Block* row : {upper, upper + width})
             for (int i = 0; i < 2; ++i) block += row[i];
@@ -136,7 +137,9 @@ private:
 
     void add(int level, int x, int y, Sum& sum) const {
         const int rows = height_ >> level;
-        const Block& block = level_[static_cast<std::size_t>(level)][static_cast<std::size_t>(y * 2 * rows + x)];
+        const Block& block =
+            level_[static_cast<std::size_t>(level)]
+                  [static_cast<std::size_t>(y) * static_cast<std::size_t>(2 * rows) + static_cast<std::size_t>(x)];
         const float cosine = glm::dot(sum.axis, block.direction);
         const float edge = kPi / static_cast<float>(rows);
         if (cosine < -edge) return;  // all of it is behind the surface

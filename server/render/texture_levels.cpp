@@ -77,7 +77,8 @@ Pixels halve(ivec2 from, const ReadRow& read_row) {
                 const Cover columns = cover(x, from.x, to.x);
                 vec4 mean(0.0F);
                 for (int i = 0; i < columns.count; ++i)
-                    mean += sum[static_cast<std::size_t>(columns.first + i)] * columns.weight[i];
+                    mean +=
+                        sum[static_cast<std::size_t>(columns.first) + static_cast<std::size_t>(i)] * columns.weight[i];
                 result
                     .value[static_cast<std::size_t>(y) * static_cast<std::size_t>(to.x) + static_cast<std::size_t>(x)] =
                     mean;
@@ -158,7 +159,7 @@ void write_value(std::uint8_t* to, TexelType type, float value, bool srgb) {
     if (type == TexelType::u8) {
         *to = static_cast<std::uint8_t>(kernels::byte_from_unit(coded));
     } else {
-        const auto code = static_cast<std::uint16_t>(coded * 65535.0F + 0.5F);
+        const auto code = static_cast<std::uint16_t>(std::lround(coded * 65535.0F));
         std::memcpy(to, &code, sizeof(code));
     }
 }
