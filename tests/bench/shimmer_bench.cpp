@@ -63,7 +63,8 @@ TextureImage bumps(int size_px, float steepness) {
         for (int x = 0; x < size_px; ++x) {
             const glm::vec2 slope(height(x + 1, y) - height(x - 1, y), height(x, y + 1) - height(x, y - 1));
             const glm::vec3 normal = glm::normalize(glm::vec3(slope * -steepness, 1.0F)) * 0.5F + 0.5F;
-            for (int c = 0; c < 3; ++c) image.texels.push_back(static_cast<std::uint8_t>(normal[c] * 255.0F + 0.5F));
+            for (int c = 0; c < 3; ++c)
+                image.texels.push_back(static_cast<std::uint8_t>(std::lround(normal[c] * 255.0F)));
         }
     return image;
 }
