@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "server/offline/writer.h"
 
 namespace macula {
@@ -15,8 +17,9 @@ Expected<LayerChoice> parse_layers(const std::string& text) {
         if (name == "positions") layer = &choice.positions;
         if (name == "levels") layer = &choice.levels;
         if (layer == nullptr) {
-            return fail(ErrorCode::option, "--write " + text + ": '" + name +
-                                               "' is unknown: use color, depth, object, positions and levels");
+            std::string message = "--write ";
+            message.append(text).append(": '").append(name);
+            return fail(ErrorCode::option, message + "' is unknown: use color, depth, object, positions and levels");
         }
         *layer = true;
     }

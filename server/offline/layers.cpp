@@ -27,7 +27,7 @@ void scatter(const Shot& shot, Layers& layers) {
     for (int y = 0; y < plan.height_px; ++y) {
         for (int x = 0; x < plan.width_px; ++x) {
             const glm::ivec2 tile = (glm::ivec2(x, y) - plan.origin_px) / kTileEdge_px;
-            const std::uint8_t level = plan.level[static_cast<std::size_t>(tile.y * plan.tiles_x + tile.x)];
+            const std::uint8_t level = plan.level[static_cast<std::size_t>(tile.y) * plan.tiles_x + tile.x];
             layers.tile_samples.at(x, y) = kLevelCounts[level];
         }
     }

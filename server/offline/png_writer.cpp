@@ -24,7 +24,7 @@ Expected<WrittenFile> write(const std::string& layer, const std::string& stem, c
     return file;
 }
 
-OIIO::ImageSpec spec_of(int channels, OIIO::TypeDesc type) {
+OIIO::ImageSpec spec_of(int channels, const OIIO::TypeDesc& type) {
     return {0, 0, channels, type};
 }
 

@@ -1,5 +1,6 @@
 #include "server/offline/progress.h"
 
+#include <cmath>
 #include <cstdio>
 
 namespace macula {
@@ -15,8 +16,7 @@ void Progress::tell(double share, const std::string& detail) {
     told_ = now;
     const double elapsed_s = std::chrono::duration<double>(now - begun_).count();
     std::string text = "macula-render: " + stage_ + ": " + std::to_string(static_cast<int>(100.0 * share)) + " %";
-    if (share > 0.0)
-        text += ", " + std::to_string(static_cast<int>(elapsed_s * (1.0 - share) / share + 0.5)) + " s left";
+    if (share > 0.0) text += ", " + std::to_string(std::lround(elapsed_s * (1.0 - share) / share)) + " s left";
     if (!detail.empty()) text += ", " + detail;
     std::fprintf(stderr, "%s\n", text.c_str());
 }
