@@ -7,7 +7,7 @@
 #include "scenes/load.h"
 #include "server/render/tracer.h"
 
-namespace CLI {
+namespace CLI {  // NOLINT(readability-identifier-naming): the library's own
 class App;
 }
 
