@@ -1,17 +1,18 @@
 #include "scenes/bunny_box.h"
 
+#include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <memory>
-#include <numbers>
 #include <utility>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "scenes/mesh_edit.h"
 #include "scenes/obj.h"
 #include "scenes/pattern.h"
+#include "scenes/scene_builder.h"
 #include "scenes/shapes.h"
 
 namespace macula {
@@ -24,72 +25,27 @@ constexpr float kPedestalHeight = 1.05F;
 constexpr glm::vec3 kPedestalPlace = glm::vec3(0.0F, 0.0F, -0.7F);
 constexpr float kBunnyHeight = 0.95F;
 
-/// sRGB-coded colour from 0xRRGGBB.
-glm::vec3 srgb(std::uint32_t hex) {
-    return glm::vec3((hex >> 16U) & 255U, (hex >> 8U) & 255U, hex & 255U) / 255.0F;
-}
-
-/// Linear colour from 0xRRGGBB.
-glm::vec4 linear(std::uint32_t hex) {
-    const glm::vec3 c = srgb(hex);
-    const auto decode = [](float v) { return v <= 0.04045F ? v / 12.92F : std::pow((v + 0.055F) / 1.055F, 2.4F); };
-    return {decode(c.r), decode(c.g), decode(c.b), 1.0F};
-}
-
-glm::mat4 place(const glm::vec3& at, float yaw_deg = 0.0F, float scale = 1.0F) {
-    const glm::mat4 turned =
-        glm::rotate(glm::translate(glm::mat4(1.0F), at), glm::radians(yaw_deg), glm::vec3(0.0F, 1.0F, 0.0F));
-    return glm::scale(turned, glm::vec3(scale));
-}
-
 /// Collects what the room consists of.
-class RoomBuilder {
+class RoomBuilder : public SceneBuilder {
 public:
-    int plain(const std::string& name, std::uint32_t hex, float roughness = 0.8F, float metallic = 0.0F) {
-        Material material;
-        material.name = name;
-        material.base_color = linear(hex);
-        material.roughness = roughness;
-        material.metallic = metallic;
-        scene_.materials.push_back(material);
-        return static_cast<int>(scene_.materials.size()) - 1;
-    }
-
     /// White times the texture, repeated `repeat` times along u and v.
     int textured(TextureImage image, glm::vec2 repeat = glm::vec2(1.0F), float roughness = 0.8F) {
         const int index = plain(image.name, 0xFFFFFF, roughness);
-        TextureUse& use = scene_.materials.back().base_color_texture;
-        use.image = static_cast<int>(scene_.images.size());
+        TextureUse& use = scene().materials.back().base_color_texture;
         use.uv_scale_rotation = glm::vec4(repeat.x, 0.0F, 0.0F, repeat.y);
-        scene_.images.push_back(std::move(image));
+        use.image = add_image(std::move(image));
         return index;
     }
 
     int glowing(const std::string& name, const glm::vec3& radiance) {
         const int index = plain(name, 0x000000);
-        scene_.materials.back().emissive = radiance;
+        scene().materials.back().emissive = radiance;
         return index;
     }
 
-    int mesh(Mesh mesh, int material) {
-        mesh.material = material;
-        scene_.meshes.push_back(std::move(mesh));
-        return static_cast<int>(scene_.meshes.size()) - 1;
-    }
-
-    void instance(const std::string& name, int mesh, const glm::mat4& world_from_mesh = glm::mat4(1.0F)) {
-        scene_.instances.push_back({name, mesh, world_from_mesh});
-    }
-
     void object(const std::string& name, Mesh shape, int material, const glm::mat4& world_from_mesh = glm::mat4(1.0F)) {
-        shape.name = name;
-        instance(name, mesh(std::move(shape), material), world_from_mesh);
+        place_mesh(name, add_mesh(std::move(shape), material), world_from_mesh);
     }
-
-    Scene& scene() { return scene_; }
-
-private:
-    Scene scene_;
 };
 
 void build_room(RoomBuilder& room) {
@@ -110,12 +66,12 @@ void build_room(RoomBuilder& room) {
     room.object("right wall", make_quad(corner(1, kRoomHeight, -1), z, down), room.plain("blue paint", 0x4F86A8, 0.9F));
 
     const int skirting = room.plain("skirting", 0xF0EEE8, 0.6F);
-    const int along_x = room.mesh(make_box({kW, 0.12F, 0.03F}), skirting);
-    const int along_z = room.mesh(make_box({0.03F, 0.12F, kW}), skirting);
-    room.instance("front skirting", along_x, place({0.0F, 0.0F, -kHalfRoom + 0.015F}));
-    room.instance("back skirting", along_x, place({0.0F, 0.0F, kHalfRoom - 0.015F}));
-    room.instance("left skirting", along_z, place({-kHalfRoom + 0.015F, 0.0F, 0.0F}));
-    room.instance("right skirting", along_z, place({kHalfRoom - 0.015F, 0.0F, 0.0F}));
+    const int along_x = room.add_mesh(make_box({kW, 0.12F, 0.03F}), skirting);
+    const int along_z = room.add_mesh(make_box({0.03F, 0.12F, kW}), skirting);
+    room.place_mesh("front skirting", along_x, place({0.0F, 0.0F, -kHalfRoom + 0.015F}));
+    room.place_mesh("back skirting", along_x, place({0.0F, 0.0F, kHalfRoom - 0.015F}));
+    room.place_mesh("left skirting", along_z, place({-kHalfRoom + 0.015F, 0.0F, 0.0F}));
+    room.place_mesh("right skirting", along_z, place({kHalfRoom - 0.015F, 0.0F, 0.0F}));
 }
 
 /// A chart in a dark frame, its centre at `at`, facing +Z before the turn.
@@ -138,6 +94,48 @@ void build_charts(RoomBuilder& room) {
     hang(room, frame, make_bar_chart(1024), {kHalfRoom, 1.7F, -0.9F}, -90.0F, 1.3F);
     const TextureImage stripes = make_stripes(512, 64, {srgb(0x1C2430), srgb(0xF2EFE6)});
     hang(room, frame, stripes, {kHalfRoom, 1.7F, 1.1F}, -90.0F, 1.3F);
+}
+
+/// A mirror between the charts of the front wall: it shows the bunny's back and the room behind the viewer.
+void build_mirror(RoomBuilder& room) {
+    constexpr glm::vec3 kCentre(0.0F, 2.15F, -kHalfRoom);
+    constexpr glm::vec2 kSize(1.5F, 1.9F);
+    constexpr float kFrame = 0.07F;
+    const int silver = room.plain("mirror silver", 0xF3F5F4, 0.0F, 1.0F);
+    const int wood = room.plain("mirror frame", 0x5B3A22, 0.45F);
+    const glm::vec2 h = 0.5F * kSize;
+    room.object("mirror", make_quad({-h.x, h.y, 0.03F}, {kSize.x, 0.0F, 0.0F}, {0.0F, -kSize.y, 0.0F}), silver,
+                place(kCentre));
+    const int rail = room.add_mesh(make_box({kSize.x + 2.0F * kFrame, kFrame, 0.06F}), wood);
+    const int stile = room.add_mesh(make_box({kFrame, kSize.y, 0.06F}), wood);
+    const glm::vec3 out(0.0F, 0.0F, 0.03F);
+    room.place_mesh("mirror frame above", rail, place(kCentre + out + glm::vec3(0.0F, h.y, 0.0F)));
+    room.place_mesh("mirror frame below", rail, place(kCentre + out - glm::vec3(0.0F, h.y + kFrame, 0.0F)));
+    room.place_mesh("mirror frame left", stile, place(kCentre + out - glm::vec3(h.x + 0.5F * kFrame, h.y, 0.0F)));
+    room.place_mesh("mirror frame right", stile, place(kCentre + out + glm::vec3(h.x + 0.5F * kFrame, -h.y, 0.0F)));
+}
+
+/// A solid ball of faintly green glass that lies in a brass ring on the marble cylinder.
+void build_glass(RoomBuilder& room) {
+    constexpr float kRadius = 0.2F;
+    constexpr glm::vec3 kStand(0.95F, 0.45F, 0.0F);  // top of the cylinder
+    Material glass;
+    glass.name = "glass";
+    glass.metallic = 0.0F;
+    glass.roughness = 0.0F;
+    glass.transmission = 1.0F;
+    glass.ior = 1.5F;
+    glass.thickness_m = 2.0F * kRadius;
+    glass.attenuation_distance_m = 0.8F;
+    glass.attenuation_color = glm::vec3(0.55F, 0.88F, 0.74F);
+    // The ball touches the ring's tube all around: where it has the tube's distance to the ball's centre.
+    constexpr float kRing = 0.11F;
+    constexpr float kTube = 0.018F;
+    const float lift = kTube + std::sqrt((kRadius + kTube) * (kRadius + kTube) - kRing * kRing);
+    room.object("glass ball", make_sphere(kRadius), room.add_material(glass),
+                place(kStand + glm::vec3(0.0F, lift, 0.0F)));
+    room.object("ring under the glass ball", make_torus(kRing, kTube), room.plain("brass", 0xC9A25A, 0.35F, 1.0F),
+                place(kStand + glm::vec3(0.0F, kTube, 0.0F)));
 }
 
 void build_objects(RoomBuilder& room) {
@@ -238,7 +236,9 @@ LoadedScene make_bunny_box(const std::string& bunny_path) {
     LoadedScene loaded;
     build_room(room);
     build_charts(room);
+    build_mirror(room);
     build_objects(room);
+    build_glass(room);
     build_bunny(room, bunny_path, loaded.warnings);
     build_lights(room);
 

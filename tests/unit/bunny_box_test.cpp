@@ -7,6 +7,7 @@
 
 #include "scenes/bunny_box.h"
 #include "scenes/framing.h"
+#include "scenes/mesh_edit.h"
 #include "scenes/obj.h"
 #include "tests/support/scene_defect.h"
 
@@ -63,6 +64,48 @@ TEST(BunnyBox, TheSessionStartsInTheRoomAndFacesTheBunny) {
         const glm::vec3 nearest = glm::clamp(eye, bounds.low, bounds.high);
         EXPECT_GT(glm::length(nearest - eye), 3.0F * scene.near_m) << instance.name << " is in the viewer's face";
     }
+}
+
+TEST(BunnyBox, TheMirrorIsPlaneAndFacesTheViewer) {
+    const LoadedScene loaded = make_bunny_box();
+    const Scene& scene = *loaded.scene;
+    const Instance& mirror = find(scene, "mirror");
+    const Mesh& mesh = scene.meshes[static_cast<std::size_t>(mirror.mesh)];
+    const Material& material = scene.materials[static_cast<std::size_t>(mesh.material)];
+    EXPECT_EQ(material.metallic, 1.0F);
+    EXPECT_EQ(material.roughness, 0.0F);
+    const Bounds bounds = bounds_of(scene, mirror);
+    EXPECT_EQ(bounds.size().z, 0.0F);
+    EXPECT_GT(bounds.size().x * bounds.size().y, 2.0F);
+    for (const glm::vec3& n : mesh.normal) EXPECT_EQ(n, glm::vec3(0.0F, 0.0F, 1.0F));
+    EXPECT_LT(bounds.high.z, scene.world_from_start.position_m.z);
+}
+
+TEST(BunnyBox, TheGlassBallIsClosedAndLiesOnItsRing) {
+    const LoadedScene loaded = make_bunny_box();
+    const Scene& scene = *loaded.scene;
+    const Instance& ball = find(scene, "glass ball");
+    const Mesh& mesh = scene.meshes[static_cast<std::size_t>(ball.mesh)];
+    const Material& material = scene.materials[static_cast<std::size_t>(mesh.material)];
+    EXPECT_EQ(material.transmission, 1.0F);
+    EXPECT_GT(material.thickness_m, 0.0F);
+    EXPECT_TRUE(is_closed(mesh));
+    for (std::size_t i = 0; i < mesh.normal.size(); ++i)
+        EXPECT_GT(glm::dot(mesh.normal[i], mesh.position_m[i]), 0.0F) << "normals look out";
+    double volume = 0.0;  // by the divergence theorem: positive where the corners turn counter-clockwise outside
+    for (const glm::uvec3& t : mesh.triangle)
+        volume += glm::dot(glm::dvec3(mesh.position_m[t.x]),
+                           glm::cross(glm::dvec3(mesh.position_m[t.y]), glm::dvec3(mesh.position_m[t.z]))) /
+                  6.0;
+    EXPECT_NEAR(volume, 4.0 / 3.0 * 3.14159265 * 0.008, 1e-4);
+    Mesh open = mesh;
+    open.triangle.pop_back();
+    EXPECT_FALSE(is_closed(open)) << "the test finds a hole";
+    const Bounds bounds = bounds_of(scene, ball);
+    const Bounds ring = bounds_of(scene, find(scene, "ring under the glass ball"));
+    EXPECT_NEAR(ring.low.y, bounds_of(scene, find(scene, "marble cylinder")).high.y, 1e-4F);
+    EXPECT_GT(bounds.low.y, ring.low.y) << "it does not reach into the cylinder";
+    EXPECT_LT(bounds.low.y, ring.high.y) << "it lies in the ring";
 }
 
 TEST(BunnyBox, TheBunnyIsStanfords) {
