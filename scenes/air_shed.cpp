@@ -43,9 +43,20 @@ LoadedScene make_air_shed(const LoadProgress& progress) {
         glm::vec3(AirShedSize::kHalfWidth + 0.6F, AirShedSize::kRidge + 0.3F, AirShedSize::kHalfLength + 0.6F);
     darken_corners(scene, openness);
     scene.name = "air-shed";
-    scene.world_from_start.position_m = glm::vec3(6.5F, 1.7F, 15.5F);
-    scene.world_from_start.orientation = glm::angleAxis(glm::radians(18.0F), glm::vec3(0.0F, 1.0F, 0.0F));
+    scene.world_from_start.position_m = glm::vec3(4.6F, 1.7F, 10.6F);
+    scene.world_from_start.orientation = glm::angleAxis(glm::radians(24.0F), glm::vec3(0.0F, 1.0F, 0.0F));
+    const auto camera = [&scene](const char* name, const glm::vec3& at, float yaw_deg) {
+        SceneCamera c;
+        c.name = name;
+        c.world_from_head.position_m = at;
+        c.world_from_head.orientation = glm::angleAxis(glm::radians(yaw_deg), glm::vec3(0.0F, 1.0F, 0.0F));
+        scene.cameras.push_back(c);
+    };
+    camera("workshop", {12.6F, 1.7F, 13.4F}, -62.0F);
+    camera("doors", {-0.5F, 1.7F, -24.0F}, 172.0F);
+    camera("stores", {-9.2F, 1.7F, 10.4F}, 66.0F);
     scene.near_m = 0.1F;
+    scene.exposure = 1.2F;
     report("done", 1.0);
     LoadedScene loaded;
     loaded.scene = std::make_shared<const Scene>(std::move(scene));

@@ -190,6 +190,7 @@ Model make_aircraft_wheel(const AirShedMaterials& m, float radius_m) {
     Model wheel;
     const float r = radius_m;
     std::vector<glm::vec2> tyre;
+    tyre.reserve(15);
     for (int i = 0; i <= 14; ++i) {
         const float a = glm::mix(-0.72F, 0.72F, static_cast<float>(i) / 14.0F) * 0.5F * kTau;
         tyre.emplace_back(0.74F * r + 0.26F * r * std::cos(a), 0.24F * r * std::sin(a));
@@ -198,6 +199,7 @@ Model make_aircraft_wheel(const AirShedMaterials& m, float radius_m) {
     wheel.add(m.rubber, make_turned(tyre, 48), sideways);
     for (const float groove : {-0.10F, -0.035F, 0.035F, 0.10F}) {
         std::vector<glm::vec3> ring;
+        ring.reserve(40);
         const float out = 0.74F * r + std::sqrt(0.0676F - groove * groove * 1.17F) * r;
         for (int i = 0; i < 40; ++i)
             ring.emplace_back(groove * r, out * std::cos(kTau * static_cast<float>(i) / 40.0F),

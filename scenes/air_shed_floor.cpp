@@ -51,7 +51,7 @@ glm::vec3 floor_tint(float x, float z) {
     glm::vec3 tint(light);
     // Oil: dark, brownish.
     constexpr glm::vec4 kSpills[] = {{-5.2F, -1.0F, 1.1F, 0.9F},  {1.4F, -3.4F, 0.9F, 0.8F},
-                                     {8.4F, 8.6F, 0.8F, 1.0F},    {6.0F, -14.5F, 1.0F, 0.7F},
+                                     {6.2F, 6.3F, 0.9F, 1.0F},    {6.0F, -14.5F, 1.0F, 0.7F},
                                      {-12.0F, 10.0F, 1.5F, 0.6F}, {3.0F, 14.0F, 0.6F, 0.5F}};
     for (const glm::vec4& s : kSpills) {
         const float d = glm::length(glm::vec2(x - s.x, z - s.y)) / s.z;

@@ -27,19 +27,20 @@ void furnish_workshop(SceneBuilder& builder, const AirShedMaterials& m) {
     place_all(builder, "second workbench", make_workbench(m, 2),
               {{{16.6F, 0.0F, 12.8F}, -90.0F}, {{-16.7F, 0.0F, -13.0F}, 90.0F}});
     place_all(builder, "red trolley", make_tool_trolley(m, m.red),
-              {{{3.7F, 0.0F, 4.2F}, 205.0F}, {{13.9F, 0.0F, 11.2F}, -70.0F}, {{7.0F, 0.0F, -11.0F}, 30.0F}});
+              {{{2.2F, 0.0F, 4.6F}, 205.0F}, {{13.9F, 0.0F, 11.2F}, -70.0F}, {{7.0F, 0.0F, -11.0F}, 30.0F}});
     place_all(builder, "blue trolley", make_tool_trolley(m, m.blue),
               {{{-8.2F, 0.0F, 3.6F}, 160.0F}, {{14.2F, 0.0F, 15.0F}, -110.0F}});
     place_all(builder, "engine stand", make_engine_stand(m),
-              {{{8.8F, 0.0F, 7.2F}, 205.0F}, {{12.2F, 0.0F, 19.4F}, 230.0F}});
-    place_all(builder, "compressor", make_compressor(m), {{{15.8F, 0.0F, 21.6F}, -60.0F}});
+              {{{6.3F, 0.0F, 6.4F}, 215.0F}, {{12.2F, 0.0F, 19.4F}, 230.0F}});
+    place_all(builder, "compressor", make_compressor(m),
+              {{{15.8F, 0.0F, 21.6F}, -60.0F}, {{4.1F, 0.0F, 3.0F}, -20.0F}});
     place_all(builder, "tractor", make_tractor(m), {{{5.6F, 0.0F, -20.5F}, 200.0F}});
     place_all(builder, "bottles", make_bottle_basket(m), {{{14.6F, 0.0F, 8.2F}, 20.0F}});
     place_all(builder, "bucket", make_bucket(m),
-              {{{7.6F, 0.0F, 8.4F}, 30.0F}, {{2.9F, 0.0F, 3.1F}, 0.0F}, {{-15.8F, 0.0F, 5.4F}, 70.0F}});
+              {{{5.2F, 0.0F, 6.6F}, 30.0F}, {{1.4F, 0.0F, 3.5F}, 0.0F}, {{-15.8F, 0.0F, 5.4F}, 70.0F}});
     place_all(builder, "cone", make_cone(m),
-              {{{1.9F, 0.0F, 8.4F}, 12.0F},
-               {{-3.6F, 0.0F, 8.9F}, 40.0F},
+              {{{-0.6F, 0.0F, 5.6F}, 12.0F},
+               {{-5.6F, 0.0F, 6.4F}, 40.0F},
                {{-9.3F, 0.0F, 6.5F}, 70.0F},
                {{9.0F, 0.0F, -2.2F}, 5.0F},
                {{4.9F, 0.0F, -9.6F}, 33.0F},
@@ -50,13 +51,13 @@ void furnish_workshop(SceneBuilder& builder, const AirShedMaterials& m) {
                {{16.8F, 0.0F, 6.2F}, -80.0F},
                {{16.4F, 0.0F, 5.9F}, -100.0F},
                {{-17.1F, 0.0F, 1.2F}, 90.0F},
-               {{2.6F, 0.0F, 5.0F}, 60.0F},
+               {{1.6F, 0.0F, 5.2F}, 60.0F},
                {{-9.4F, 0.0F, -9.0F}, 0.0F}});
 }
 
 void furnish_access(SceneBuilder& builder, const AirShedMaterials& m) {
     place_all(builder, "ladder", make_wheeled_ladder(m, 2.6F),
-              {{{2.9F, 0.0F, 0.4F}, -30.0F}, {{13.6F, 0.0F, -6.6F}, 140.0F}});
+              {{{1.9F, 0.0F, 0.2F}, -30.0F}, {{13.6F, 0.0F, -6.6F}, 140.0F}});
     place_all(builder, "tall ladder", make_wheeled_ladder(m, 3.8F),
               {{{-11.6F, 0.0F, -17.5F}, 15.0F}, {{-14.8F, 0.0F, 16.0F}, 80.0F}});
     place_all(builder, "platform", make_platform(m, 2.1F), {{{-9.8F, 0.0F, 1.2F}, 24.0F}});
@@ -66,7 +67,8 @@ void furnish_access(SceneBuilder& builder, const AirShedMaterials& m) {
                {{-12.6F, 0.0F, -25.2F}, 24.0F},
                {{15.8F, 0.0F, -21.0F}, 80.0F},
                {{15.4F, 0.0F, -19.3F}, 95.0F}});
-    place_all(builder, "chocks", make_chocks(m), {{{-1.05F, 0.0F, -2.7F}, 24.0F}, {{10.1F, 0.0F, -12.0F}, -32.0F}});
+    place_all(builder, "chocks", make_chocks(m),
+              {{{-0.61F, 0.0F, -2.19F}, 24.0F}, {{10.52F, 0.0F, -11.66F}, -32.0F}, {{8.40F, 0.0F, -12.98F}, -32.0F}});
 }
 
 void furnish_stores(SceneBuilder& builder, const AirShedMaterials& m) {
@@ -77,7 +79,9 @@ void furnish_stores(SceneBuilder& builder, const AirShedMaterials& m) {
                {{-12.5F, 0.0F, 5.6F}, 100.0F},
                {{-12.3F, 1.268F, 21.5F}, 30.0F},
                {{5.6F, 0.0F, 24.0F}, 160.0F},
-               {{10.9F, 0.0F, 9.7F}, 215.0F}});
+               {{10.9F, 0.0F, 9.7F}, 215.0F},
+               {{8.3F, 0.0F, 4.6F}, 150.0F},
+               {{-3.4F, 0.0F, 7.4F}, 30.0F}});
     place_all(builder, "long crate", make_crate(m, {2.4F, 0.55F, 0.6F}, 3),
               {{{-13.0F, 0.0F, 8.2F}, 95.0F},
                {{-13.1F, 0.575F, 8.3F}, 88.0F},
@@ -89,7 +93,8 @@ void furnish_stores(SceneBuilder& builder, const AirShedMaterials& m) {
                {{10.8F, 0.724F, 9.6F}, 200.0F},
                {{5.5F, 0.724F, 24.1F}, 190.0F},
                {{7.2F, 1.124F, 23.5F}, 150.0F},
-               {{-15.9F, 0.0F, 11.2F}, 85.0F}});
+               {{-15.9F, 0.0F, 11.2F}, 85.0F},
+               {{8.2F, 0.724F, 4.7F}, 170.0F}});
     std::vector<Stand> pallets = {{{-14.6F, 0.0F, 5.0F}, 80.0F}, {{-12.2F, 0.0F, 21.4F}, 12.0F}};
     for (int i = 0; i < 7; ++i)
         pallets.push_back(
@@ -101,6 +106,7 @@ void furnish_stores(SceneBuilder& builder, const AirShedMaterials& m) {
                                                     {{14.6F, 0.0F, -21.9F}, 250.0F},
                                                     {{14.2F, 0.0F, -22.5F}, 170.0F},
                                                     {{11.6F, 0.0F, 8.4F}, 240.0F},
+                                                    {{8.9F, 0.0F, 5.9F}, 200.0F},
                                                     {{-9.9F, 0.0F, 24.4F}, 160.0F}},
                                                    {{{14.0F, 0.88F, -22.0F}, 190.0F},
                                                     {{12.3F, 0.0F, 8.9F}, 190.0F},

@@ -36,9 +36,9 @@ glm::vec3 sky_color(const NoiseField& clouds, float u, float v) {
     const glm::vec3 blue(0.50F, 0.67F, 0.88F);
     const glm::vec3 clear = glm::mix(haze, blue, ramp(0.0F, 0.9F, v));
     const float far = 1.0F / (0.10F + v);  // clouds lie flat: further ones are closer together
-    const float cover = 0.6F * clouds.at(2.0F * u, 0.10F * far) + 0.4F * clouds.at(6.0F * u + 0.3F, 0.31F * far);
+    const float cover = 0.6F * clouds.at(u, 0.05F * far) + 0.4F * clouds.at(3.0F * u + 0.3F, 0.15F * far);
     const float cloud = ramp(0.46F, 0.72F, cover) * ramp(0.0F, 0.1F, v);
-    const float shade = clouds.at(2.0F * u + 0.01F, 0.10F * far + 0.02F);
+    const float shade = clouds.at(u + 0.01F, 0.05F * far + 0.02F);
     return glm::mix(clear, glm::mix(glm::vec3(1.0F), glm::vec3(0.74F, 0.77F, 0.82F), ramp(0.4F, 0.8F, shade)), cloud);
 }
 
@@ -171,7 +171,7 @@ void build_light(SceneBuilder& builder) {
         lamp.casts_shadow = hook.x > 0.0F && hook.z > 0.0F && hook.z < 16.0F;
         scene.lights.push_back(lamp);
     }
-    scene.ambient_radiance = glm::vec3(0.2F);
+    scene.environment.intensity = 1.5F;  // the walls' further reflections
     scene.environment.image = builder.add_image(make_probe());
 }
 

@@ -80,8 +80,8 @@ void build_crane(SceneBuilder& builder, const AirShedMaterials& m) {
     }
     crane.add(
         m.rubber,
-        make_pipe(hanging_path({kX - 0.5F, kY + 0.3F, kZ + 0.5F}, {kX - 0.62F, 1.4F, kZ + 0.6F}, 0.0F, 4), 0.012F, 6));
-    crane.add(m.yellow, make_bevelled_block({0.08F, 0.26F, 0.06F}, 0.012F), place({kX - 0.62F, 1.28F, kZ + 0.6F}));
+        make_pipe(hanging_path({kX + 0.8F, kY + 0.3F, kZ + 0.5F}, {kX + 0.95F, 1.4F, kZ + 0.6F}, 0.0F, 4), 0.012F, 6));
+    crane.add(m.yellow, make_bevelled_block({0.08F, 0.26F, 0.06F}, 0.012F), place({kX + 0.95F, 1.28F, kZ + 0.6F}));
     builder.add_placed("crane", crane);
 }
 
@@ -229,6 +229,15 @@ void build_wall_things(SceneBuilder& builder, const AirShedMaterials& m) {
                                                         0.12F + 0.1F * hash01(i, static_cast<int>(x), 58), 8),
                                            0.009F, 5));
     }
+    // Hoses and a cable that lie where work is done.
+    const auto lie = [&things](int material, float radius_m, std::initializer_list<glm::vec3> path) {
+        things.add(material, make_pipe(round_corners(path, 1.2F, 8), radius_m, 8));
+    };
+    lie(m.rubber, 0.014F,
+        {{4.8F, 0.016F, 3.2F}, {5.6F, 0.016F, 4.6F}, {3.4F, 0.016F, 5.8F}, {0.6F, 0.016F, 2.9F}, {0.0F, 0.016F, 0.6F}});
+    lie(m.orange, 0.010F, {{17.2F, 0.012F, 7.6F}, {12.0F, 0.012F, 6.9F}, {9.0F, 0.012F, 8.2F}, {6.9F, 0.012F, 6.9F}});
+    lie(m.orange, 0.010F,
+        {{-17.2F, 0.012F, 0.4F}, {-12.4F, 0.012F, 3.6F}, {-8.8F, 0.012F, 2.2F}, {-8.0F, 0.012F, -0.4F}});
     builder.add_placed("wall things", things);
 }
 

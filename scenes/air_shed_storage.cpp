@@ -91,7 +91,9 @@ Model make_crate(const AirShedMaterials& m, const glm::vec3& size_m, int seed) {
                          (static_cast<float>(i) + 0.5F) * pitch - 0.5F * (size_m.z + 0.05F)}));
     const AirShedText texts[] = {AirShedText::fragile, AirShedText::this_side_up, AirShedText::spares};
     const AirShedText text = texts[seed % 3];
-    crate.add(m.decal, make_decal(m, text, std::min(0.14F, 0.2F * size_m.x), {0.03F, 0.03F, 0.035F}),
+    crate.add(m.decal,
+              make_decal(m, text, std::min(0.16F, 0.75F * size_m.x / m.text[static_cast<std::size_t>(text)].aspect),
+                         {0.03F, 0.03F, 0.035F}),
               place({0.0F, 0.5F * size_m.y, 0.5F * size_m.z + 1.5F * kBoard + 0.002F}));
     return crate;
 }
@@ -122,7 +124,11 @@ Model make_cardboard_box(const AirShedMaterials& m, const glm::vec3& size_m, int
         box.add(m.paper, make_quad({-label, 0.5F * label, 0.0F}, {1.4F * label, 0.0F, 0.0F}, {0.0F, -label, 0.0F}),
                 place({0.0F, 0.55F * size_m.y, 0.5F * size_m.z + 0.001F}));
     } else {
-        box.add(m.decal, make_decal(m, AirShedText::fragile, 0.3F * size_m.y, {0.3F, 0.03F, 0.02F}),
+        box.add(m.decal,
+                make_decal(m, AirShedText::fragile,
+                           std::min(0.3F * size_m.y,
+                                    0.8F * size_m.x / m.text[static_cast<std::size_t>(AirShedText::fragile)].aspect),
+                           {0.3F, 0.03F, 0.02F}),
                 place({0.0F, 0.5F * size_m.y, 0.5F * size_m.z + 0.001F}));
     }
     return box;

@@ -198,6 +198,7 @@ Model make_engine_stand(const AirShedMaterials& m) {
     }
     stand.add(m.red, make_bevelled_block({1.0F, 0.08F, 0.08F}, 0.006F), place({0.0F, 0.22F, -0.6F}));
     std::vector<glm::vec3> ring;
+    ring.reserve(28);
     for (int i = 0; i < 28; ++i)
         ring.emplace_back(0.26F * std::cos(kTau * static_cast<float>(i) / 28.0F),
                           1.25F + 0.26F * std::sin(kTau * static_cast<float>(i) / 28.0F), -0.46F);
@@ -233,6 +234,7 @@ Model make_compressor(const AirShedMaterials& m) {
                         24),
             turned({-0.28F, 0.80F, 0.0F}, 90.0F, {1.0F, 0.0F, 0.0F}));
     std::vector<glm::vec3> wheel;
+    wheel.reserve(32);
     for (int i = 0; i < 32; ++i)
         wheel.emplace_back(0.25F + 0.22F * std::cos(kTau * static_cast<float>(i) / 32.0F),
                            0.86F + 0.22F * std::sin(kTau * static_cast<float>(i) / 32.0F), 0.2F);

@@ -139,11 +139,12 @@ SurfaceMaps make_aircraft_skin_surface(int size_px, const WearNoise& noise) {
         const float clouds = noise.clouds.at(u, v);
         t.color = glm::vec3(0.80F, 0.81F, 0.82F) * (0.95F + 0.05F * shade + 0.05F * (polish - 0.5F));
         const float dirt = glm::clamp(0.40F * gap + 0.25F * moat +
-                                          0.25F * (1.0F - ramp(0.0F, 0.05F, lap_m)) * noise.blotches.at(u, v) +
-                                          0.35F * ramp(0.62F, 0.9F, noise.streaks.at(1.0F - v, u)),
+                                          0.12F * (1.0F - ramp(0.0F, 0.05F, lap_m)) * noise.blotches.at(u, v) +
+                                          0.18F * ramp(0.66F, 0.95F, noise.streaks.at(1.0F - v, u)),
                                       0.0F, 0.85F);
         t.color = glm::mix(t.color, glm::vec3(0.20F, 0.17F, 0.14F), dirt);
-        t.roughness = 0.26F + 0.06F * shade + 0.10F * clouds + 0.10F * (polish - 0.5F) + 0.35F * dirt;
+        // Satin: above the roughness below which a tracer follows the reflection.
+        t.roughness = 0.43F + 0.04F * shade + 0.06F * clouds + 0.04F * (polish - 0.5F) + 0.35F * dirt;
         t.metallic = 1.0F - 0.7F * dirt;
         // Skins bulge a little between their ribs ("oil canning").
         const glm::vec2 bulge = glm::vec2(1.0F) - glm::abs(in_m / panel_m * 2.0F - 1.0F);

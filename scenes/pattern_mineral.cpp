@@ -27,7 +27,7 @@ SurfaceMaps make_concrete_surface(int size_px, const WearNoise& noise) {
         t.color *= 1.0F - 0.62F * crack;
         const float grease = ramp(0.66F, 0.85F, noise.clouds.at(u + 0.61F, v + 0.23F));
         t.color = glm::mix(t.color, glm::vec3(0.24F, 0.22F, 0.20F), 0.5F * grease);
-        t.roughness = glm::clamp(0.60F + 0.22F * worn - 0.20F * grease + 0.12F * (trowel - 0.5F), 0.25F, 1.0F);
+        t.roughness = glm::clamp(0.62F + 0.20F * worn - 0.14F * grease + 0.12F * (trowel - 0.5F), 0.45F, 1.0F);
         t.height = 0.0008F * (clouds - 0.5F) + 0.00035F * grain + 0.0003F * worn * speckle - 0.0016F * crack;
         return t;
     });

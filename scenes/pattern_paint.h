@@ -31,7 +31,7 @@ inline TextureImage blank_image(std::string name, int width_px, int height_px, i
 }
 
 inline std::uint8_t unit_byte(float value) {
-    return static_cast<std::uint8_t>(glm::clamp(value, 0.0F, 1.0F) * 255.0F + 0.5F);
+    return static_cast<std::uint8_t>(std::lround(glm::clamp(value, 0.0F, 1.0F) * 255.0F));
 }
 
 /// Square images whose texels are `texel(u, v)`, a SurfaceTexel, at their centres. Normals point along -dh/du and,
