@@ -1,7 +1,6 @@
 // macula-render: one frame of a scene into picture files, by the parts that the server renders with.
 
 #include <cstdio>
-#include <iostream>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -130,8 +129,7 @@ Expected<void> run(const RenderOptions& options) {
         pictures = *std::move(frame);
     }
     if (auto written = write(options, *choice, (*scene)->exposure, shots, pictures, report); !written) return written;
-    if (options.json != "-")
-        for (const WrittenFile& file : report.files) progress.note("wrote " + file.path);
+    for (const WrittenFile& file : report.files) progress.note("wrote " + file.path);
     return options.json.empty() ? Expected<void>{} : write_text(options.json, to_json(report, options, shots));
 }
 
