@@ -14,7 +14,7 @@ macula_test(reflectance_test
     LABELS fast)
 
 macula_test(tracer_test
-    SOURCES unit/tracer_test.cpp differential/tracer_test.cpp
+    SOURCES unit/tracer_motion_test.cpp unit/tracer_test.cpp differential/tracer_test.cpp
     LINK macula_tracer macula_scenes
     LABELS fast threads)
 
@@ -29,6 +29,11 @@ macula_kernel_text(kernels_gl_test
 macula_test(tracer_golden_test
     SOURCES golden/furnace_test.cpp golden/geometry_test.cpp golden/light_test.cpp
             golden/material_test.cpp golden/shadow_test.cpp
+    LINK macula_tracer macula_scenes
+    LABELS fast)
+
+macula_test(tracer_path_test
+    SOURCES golden/glass_test.cpp golden/mirror_test.cpp
     LINK macula_tracer macula_scenes
     LABELS fast)
 

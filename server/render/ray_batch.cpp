@@ -179,7 +179,12 @@ void RayBatch::trace_eye_rays(std::size_t first_in_batch, std::span<const std::u
             p.slot = static_cast<std::uint32_t>(first_in_batch) + static_cast<std::uint32_t>(lane);
             p.bounces = static_cast<std::uint8_t>(frame_.bounces);
         });
+        if ((shading.needs & kNeedAbsorption) != 0) absorb_before_eye(hits, path, surfaces.branching);
         send_rays(shading, hits, surfaces, path, surfaces.radiance, memory_.stack, counts_);
+        for_each_lane(surfaces.branching, [&](int lane) {
+            const vec3 share = path[static_cast<std::size_t>(lane)].throughput;
+            surfaces.radiance.set(lane, surfaces.radiance[lane] * share);
+        });
     }
     for (int i = 0; i < kLaneCount; ++i) {
         const std::size_t slot = first_in_batch + static_cast<std::size_t>(i);
@@ -188,6 +193,17 @@ void RayBatch::trace_eye_rays(std::size_t first_in_batch, std::span<const std::u
         memory_.metres_per_depth[slot] = std::sqrt(glm::dot(direction, direction));
         memory_.pixel[slot] = hits.pixel[i];
     }
+}
+
+/// An eye inside a volume sees it from behind.
+void RayBatch::absorb_before_eye(const HitPacket& hits, std::span<RayPath, kLaneCount> path, LaneMask lanes) const {
+    for_each_lane(lanes, [&](int lane) {
+        const ShadingInstance& hit = frame_.shading.scene.instances()[hits.instance[lane]];
+        const vec3 direction = hits.direction[lane];
+        if ((hit.needs & kNeedAbsorption) == 0 || glm::dot(hits.geometric_normal[lane], direction) <= 0.0F) return;
+        path[static_cast<std::size_t>(lane)].throughput =
+            kernels::beer_transmittance(hit.absorption_per_m, hits.distance[lane] * glm::length(direction));
+    });
 }
 
 void RayBatch::trace_wave(std::span<SecondaryRay> wave) {

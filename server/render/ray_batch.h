@@ -76,6 +76,7 @@ public:
 
 private:
     void trace_eye_rays(std::size_t first_in_batch, std::span<const std::uint32_t> addresses);
+    void absorb_before_eye(const HitPacket& hits, std::span<RayPath, kLaneCount> path, LaneMask lanes) const;
     void trace_wave(std::span<SecondaryRay> wave);
     void trace_secondary(std::span<SecondaryRay> rays);
     void store(std::span<const std::uint32_t> addresses, std::size_t slot);

@@ -55,6 +55,18 @@ void begin_color(LightQuery& query, int lane) {
     query.transmittance.set(lane, glm::vec3(1.0F));
     query.optical_depth.set(lane, glm::vec3(0.0F));
     query.open_absorption.set(lane, glm::vec3(0.0F));
+    query.crossings[lane] = 0;
+    for (LightQuery::Crossing& crossing : query.last[lane]) crossing = {};
+}
+
+/// Whether a lane has met this surface here before, in a neighbouring triangle; notes that it has.
+bool met_before(LightQuery& query, int lane, const ShadingInstance& instance, float t, bool leaves) {
+    const float signed_t = leaves ? -t : t;
+    for (const LightQuery::Crossing& crossing : query.last[lane]) {
+        if (crossing.instance == &instance && std::abs(crossing.t - signed_t) <= 1e-6F * t) return true;
+    }
+    query.last[lane][query.crossings[lane]++ % LightQuery::kRemembered] = {&instance, signed_t};
+    return false;
 }
 
 /// Lets light pass, and notes what the surface takes of it.
@@ -71,14 +83,16 @@ void pass_light(const RTCFilterFunctionNArguments* args) {
         if (std::max({share.x, share.y, share.z}) <= 0.0F) continue;  // the hit stands, and ends the query
         const auto lane = static_cast<int>(RTCRayN_id(args->ray, args->N, i));
         if ((query.colored >> lane & 1U) == 0) begin_color(query, lane);
+        const float t = RTCRayN_tfar(args->ray, args->N, i);
+        args->valid[i] = 0;
+        if (met_before(query, lane, instance, t, facing > 0.0F)) continue;
         query.transmittance.set(lane, query.transmittance[lane] * share);
         if ((instance.needs & kNeedAbsorption) != 0) {
             const glm::vec3 leaves = instance.absorption_per_m * (facing > 0.0F ? 1.0F : -1.0F);
-            const float path_m = RTCRayN_tfar(args->ray, args->N, i) * query.length_m[lane];
+            const float path_m = t * query.length_m[lane];
             query.optical_depth.set(lane, query.optical_depth[lane] + leaves * path_m);
             query.open_absorption.set(lane, query.open_absorption[lane] - leaves);
         }
-        args->valid[i] = 0;
     }
 }
 

@@ -1,6 +1,7 @@
 #include "server/render/surface_fetch.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "server/kernels/fresnel.h"
@@ -41,43 +42,107 @@ private:
     const Corners& corners_;
 };
 
-/// Reads textures under a ray's footprint, which is worked out once for each set of coordinates.
+/// Edges of the lanes' triangles in the world and in the texture coordinates of their first texture, and what follows.
+struct FootprintLanes {
+    LaneMask lanes = 0;
+    Lanes3 edge1;
+    Lanes3 edge2;
+    Lanes<float> uv1_x;
+    Lanes<float> uv1_y;
+    Lanes<float> uv2_x;
+    Lanes<float> uv2_y;
+    Lanes<float> across_x;
+    Lanes<float> across_y;
+    Lanes<float> along_x;
+    Lanes<float> along_y;
+
+    [[nodiscard]] kernels::UvFootprint operator[](int lane) const {
+        return {{across_x[lane], across_y[lane]}, {along_x[lane], along_y[lane]}};
+    }
+};
+
+/// The uv coordinates that most textures of an instance use; null where it has no texture.
+const vec2* first_uv(const ShadingInstance& instance) {
+    if ((instance.features & kBaseColorTexture) != 0) return instance.base_color.uv;
+    if ((instance.features & kMetallicRoughnessTexture) != 0) return instance.metallic_roughness.uv;
+    if ((instance.features & kNormalTexture) != 0) return instance.normal_map.uv;
+    return (instance.features & kEmissiveTexture) != 0 ? instance.emissive.uv : nullptr;
+}
+
+/// Where one lane was hit.
+struct LanePlace {
+    const ShadingInstance* instance;
+    const InstancePlace* moved;  ///< null: the instance stands still
+    Corners corners;
+
+    [[nodiscard]] const glm::mat3& world_from_mesh() const {
+        return moved == nullptr ? instance->world_from_mesh : moved->world_from_mesh;
+    }
+    [[nodiscard]] vec3 edge(unsigned from, unsigned to) const {
+        return world_from_mesh() * (instance->position[to] - instance->position[from]);
+    }
+};
+
+void gather_edges(const LanePlace& place, const vec2* uv, int lane, FootprintLanes& footprints) {
+    const glm::uvec3& t = place.corners.index;
+    footprints.lanes |= 1U << lane;
+    footprints.edge1.set(lane, place.edge(t.x, t.y));
+    footprints.edge2.set(lane, place.edge(t.x, t.z));
+    const vec2 uv1 = uv[t.y] - uv[t.x];
+    const vec2 uv2 = uv[t.z] - uv[t.x];
+    footprints.uv1_x[lane] = uv1.x;
+    footprints.uv1_y[lane] = uv1.y;
+    footprints.uv2_x[lane] = uv2.x;
+    footprints.uv2_y[lane] = uv2.y;
+}
+
+[[gnu::flatten]] void find_footprints(const HitPacket& hits, FootprintLanes& f) {
+    MACULA_LANE_LOOP
+    for (int i = 0; i < kLaneCount; ++i) {
+        const kernels::UvFootprint footprint =
+            kernels::uv_footprint(hits.width_m[i], kernels::safe_normalize(hits.direction[i]), f.edge1[i], f.edge2[i],
+                                  vec2(f.uv1_x[i], f.uv1_y[i]), vec2(f.uv2_x[i], f.uv2_y[i]));
+        f.across_x[i] = footprint.across.x;
+        f.across_y[i] = footprint.across.y;
+        f.along_x[i] = footprint.along.x;
+        f.along_y[i] = footprint.along.y;
+    }
+}
+
+/// Reads textures under a ray's footprint.
 class FootprintReader {
 public:
-    FootprintReader(const ShadingInstance& instance, const Corners& corners, const glm::mat3& world_from_mesh,
-                    const vec3& direction, float width_m)
-        : instance_(instance),
-          corners_(corners),
-          world_from_mesh_(world_from_mesh),
-          direction_(direction),
-          width_m_(width_m) {}
+    FootprintReader(const LanePlace& place, const HitPacket& hits, const FootprintLanes& footprints, int lane)
+        : place_(place), hits_(hits), lane_(lane) {
+        if (((footprints.lanes >> lane) & 1U) == 0) return;
+        uv_ = first_uv(*place.instance);
+        footprint_ = footprints[lane];
+    }
 
     [[nodiscard]] vec4 operator()(const ShadingTexture& texture) {
-        return look_up(texture.view, corners_.of(texture.uv), footprint(texture.uv));
+        return look_up(texture.view, corners().of(texture.uv), footprint(texture.uv));
     }
     [[nodiscard]] NormalLookup normal(const ShadingTexture& texture) {
-        return look_up_normal(texture.view, corners_.of(texture.uv), footprint(texture.uv));
+        return look_up_normal(texture.view, corners().of(texture.uv), footprint(texture.uv));
     }
-    [[nodiscard]] const ShadingInstance& instance() const { return instance_; }
-    [[nodiscard]] const Corners& corners() const { return corners_; }
+    [[nodiscard]] const ShadingInstance& instance() const { return *place_.instance; }
+    [[nodiscard]] const Corners& corners() const { return place_.corners; }
 
 private:
+    /// The packet's, or, of coordinates that few textures use, one of its own.
     [[nodiscard]] const kernels::UvFootprint& footprint(const vec2* uv) {
         if (uv == uv_) return footprint_;
         uv_ = uv;
-        const vec3* p = instance_.position;
-        const glm::uvec3& t = corners_.index;
+        const glm::uvec3& t = corners().index;
         footprint_ =
-            kernels::uv_footprint(width_m_, kernels::safe_normalize(direction_), world_from_mesh_ * (p[t.y] - p[t.x]),
-                                  world_from_mesh_ * (p[t.z] - p[t.x]), uv[t.y] - uv[t.x], uv[t.z] - uv[t.x]);
+            kernels::uv_footprint(hits_.width_m[lane_], kernels::safe_normalize(hits_.direction[lane_]),
+                                  place_.edge(t.x, t.y), place_.edge(t.x, t.z), uv[t.y] - uv[t.x], uv[t.z] - uv[t.x]);
         return footprint_;
     }
 
-    const ShadingInstance& instance_;
-    const Corners& corners_;
-    const glm::mat3& world_from_mesh_;
-    vec3 direction_;
-    float width_m_;
+    const LanePlace& place_;
+    const HitPacket& hits_;
+    int lane_;
     const vec2* uv_ = nullptr;
     kernels::UvFootprint footprint_{};
 };
@@ -228,30 +293,48 @@ void fetch_surfaces(const ShadingContext& context, const HitPacket& hits, Surfac
     constexpr std::uint32_t kRichNeeds = kNeedTransmission | kNeedRefraction | kNeedSpecular | kLayerNeeds;
     const ShadingInstance* instances = context.scene.instances().data();
     const bool animated = !context.pose.places.empty();
+    std::array<LanePlace, kLaneCount> places;
+    FootprintLanes footprints;
+    LaneMask special = 0;  // lanes that are more than factors and vertex colours
     for_each_lane(hits.hit, [&](int lane) {
         const std::uint32_t index = hits.instance[lane];
         const ShadingInstance& instance = instances[index];
         const Material& material = *instance.material;
-        const Corners corners{instance.triangle[hits.triangle[lane]], hits.u[lane], hits.v[lane]};
-        const InstancePlace* place = animated && instance.moves ? &context.pose.places[index] : nullptr;
-        const vec3 normal = corners.of(instance.normal);
-        surfaces.normal.set(lane, place == nullptr ? normal : place->normal_matrix * normal);
-        surfaces.plane_extent_m[lane] = instance.plane_extent_m * (place == nullptr ? 1.0F : place->stretch);
-        const glm::mat3& world_from_mesh = place == nullptr ? instance.world_from_mesh : place->world_from_mesh;
-        FootprintReader read(instance, corners, world_from_mesh, hits.direction[lane], hits.width_m[lane]);
-        const vec4 color = base_color(read);
+        LanePlace& place = places[static_cast<std::size_t>(lane)];
+        place.instance = &instance;
+        place.moved = animated && instance.moves ? &context.pose.places[index] : nullptr;
+        place.corners = {instance.triangle[hits.triangle[lane]], hits.u[lane], hits.v[lane]};
+        const vec3 normal = place.corners.of(instance.normal);
+        surfaces.normal.set(lane, place.moved == nullptr ? normal : place.moved->normal_matrix * normal);
+        surfaces.plane_extent_m[lane] =
+            instance.plane_extent_m * (place.moved == nullptr ? 1.0F : place.moved->stretch);
+        vec4 color = material.base_color;
+        if ((instance.features & kVertexColor) != 0) color *= place.corners.of(instance.color);
         surfaces.base_color.set(lane, vec3(color));
         surfaces.metallic[lane] = material.metallic;
         surfaces.roughness[lane] = material.roughness;
         surfaces.radiance.set(lane, material.emissive);
-        LaneFetch fetch(instance, place, read, lane, surfaces);
+        const std::uint32_t needs = instance.needs & context.needs;
+        if ((instance.features & ~kVertexColor) == 0 && (needs & (kBranchingNeeds | kRichNeeds)) == 0) return;
+        special |= 1U << lane;
+        if (const vec2* uv = first_uv(instance)) gather_edges(place, uv, lane, footprints);
+    });
+    if (footprints.lanes != 0) find_footprints(hits, footprints);
+    for_each_lane(special, [&](int lane) {
+        const LanePlace& place = places[static_cast<std::size_t>(lane)];
+        const ShadingInstance& instance = *place.instance;
+        const std::uint32_t needs = instance.needs & context.needs;
+        FootprintReader read(place, hits, footprints, lane);
+        const vec4 color = base_color(read);
+        surfaces.base_color.set(lane, vec3(color));
+        LaneFetch fetch(instance, place.moved, read, lane, surfaces);
         if ((instance.features & kUnlit) != 0) {
             surfaces.lit &= ~(1U << lane);
         } else {
-            if ((instance.needs & context.needs & kRichNeeds) != 0) fetch.apply_extensions();
+            if ((needs & kRichNeeds) != 0) fetch.apply_extensions();
             if ((instance.features & kTextured) != 0) fetch.apply_textures();
         }
-        if ((instance.needs & context.needs & kBranchingNeeds) != 0) fetch.apply_branching(color.w);
+        if ((needs & kBranchingNeeds) != 0) fetch.apply_branching(color.w);
     });
 }
 

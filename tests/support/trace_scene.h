@@ -69,6 +69,9 @@ struct Traced {
     [[nodiscard]] glm::vec3 radiance(int x, int y) const { return samples.radiance[address(x, y)]; }
     [[nodiscard]] Rgba8 color(int x, int y) const { return samples.color[address(x, y)]; }
     [[nodiscard]] float inverse_depth(int x, int y) const { return samples.inverse_depth_per_m[address(x, y)]; }
+    [[nodiscard]] float image_inverse_depth(int x, int y) const {
+        return samples.image_inverse_depth_per_m[address(x, y)];
+    }
     [[nodiscard]] std::uint32_t object(int x, int y) const { return samples.object_id[address(x, y)]; }
     /// Tangents of a pixel's centre, worked out from CONVENTIONS.md and not by the kernels.
     [[nodiscard]] glm::vec2 tangents(int x, int y) const {
@@ -78,18 +81,22 @@ struct Traced {
     }
 };
 
-inline std::unique_ptr<Tracer> tracer_of(const Scene& scene) {
-    auto tracer = make_embree_tracer(std::make_shared<const Scene>(scene));
+inline std::unique_ptr<Tracer> tracer_of(const Scene& scene, const TracerOptions& options = {}) {
+    auto tracer = make_embree_tracer(std::make_shared<const Scene>(scene), options);
     if (!tracer) throw std::runtime_error(tracer.error().message);  // a test that cannot go on
     return std::move(*tracer);
 }
 
-inline Traced trace(const Scene& scene, const EyeView& view) {
+/// `counts` may be null.
+inline Traced trace(const Scene& scene, const EyeView& view, const TracerOptions& options = {}, double time_s = 0.0,
+                    TraceCounts* counts = nullptr) {
     Traced traced{view, {}};
     traced.samples.keep_radiance = true;
+    traced.samples.keep_image_depth = true;
     const SamplePlan plan = full_plan(view.width_px, view.height_px);
     const TraceTask task{&traced.view, &plan, &traced.samples};
-    tracer_of(scene)->trace({&task, 1});
+    const TraceCounts found = tracer_of(scene, options)->trace({&task, 1}, time_s);
+    if (counts != nullptr) *counts = found;
     return traced;
 }
 
