@@ -44,8 +44,8 @@ public:
             const float share = 2.0F * area * (1.0F - v) / static_cast<float>(rows * count);
             for (int i = 0; i < count; ++i) {
                 const float u = (static_cast<float>(i) + 0.5F) / static_cast<float>(count) * (1.0F - v);
-                float* cell = at(a + (b - a) * u + (c - a) * v);
-                if (cell != nullptr) *cell += share;
+                const std::ptrdiff_t to = cell(a + (b - a) * u + (c - a) * v);
+                if (to >= 0) area_[static_cast<std::size_t>(to)] += share;
             }
         }
     }
@@ -57,23 +57,20 @@ public:
 
     /// Transmittance at a point; 1 outside.
     [[nodiscard]] float transmittance(const glm::vec3& p) const {
-        const float* cell = const_cast<AreaGrid*>(this)->at(p);
-        return cell == nullptr ? 1.0F : *cell;
+        const std::ptrdiff_t i = cell(p);
+        return i < 0 ? 1.0F : area_[static_cast<std::size_t>(i)];
     }
 
-    [[nodiscard]] bool holds(const glm::vec3& p) const { return const_cast<AreaGrid*>(this)->at(p) != nullptr; }
+    [[nodiscard]] bool holds(const glm::vec3& p) const { return cell(p) >= 0; }
 
 private:
-    float* at(const glm::vec3& p) {
+    /// Index of the cell that holds a point; -1 outside.
+    [[nodiscard]] std::ptrdiff_t cell(const glm::vec3& p) const {
         const glm::vec3 q = (p - low_) * per_m_;
         const glm::vec3 size(size_);
-        if (!(q.x >= 0.0F && q.y >= 0.0F && q.z >= 0.0F && q.x < size.x && q.y < size.y && q.z < size.z))
-            return nullptr;
+        if (!(q.x >= 0.0F && q.y >= 0.0F && q.z >= 0.0F && q.x < size.x && q.y < size.y && q.z < size.z)) return -1;
         const glm::ivec3 i(q);
-        return &area_[(static_cast<std::size_t>(i.z) * static_cast<std::size_t>(size_.y) +
-                       static_cast<std::size_t>(i.y)) *
-                          static_cast<std::size_t>(size_.x) +
-                      static_cast<std::size_t>(i.x)];
+        return (static_cast<std::ptrdiff_t>(i.z) * size_.y + i.y) * size_.x + i.x;
     }
 
     glm::vec3 low_;

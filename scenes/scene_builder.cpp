@@ -1,12 +1,24 @@
 #include "scenes/scene_builder.h"
 
 #include <cmath>
+#include <cstddef>
 #include <utility>
 
 #include "scenes/mesh_attributes.h"
 #include "scenes/mesh_edit.h"
 
 namespace macula {
+namespace {
+
+/// "crane, yellow paint"; the name alone where it has one part only.
+std::string part_name(const std::string& name, std::size_t parts, const std::string& material) {
+    if (parts == 1) return name;
+    std::string result = name;
+    result += ", ";
+    return result += material;
+}
+
+}  // namespace
 
 glm::vec3 srgb(std::uint32_t hex) {
     return glm::vec3((hex >> 16U) & 255U, (hex >> 8U) & 255U, hex & 255U) / 255.0F;
@@ -73,7 +85,7 @@ ModelMeshes SceneBuilder::add_model(const std::string& name, const Model& model)
     for (const Mesh& part : model.meshes()) {
         Mesh mesh = part;
         const std::string& material = scene_.materials[static_cast<std::size_t>(part.material)].name;
-        mesh.name = model.meshes().size() == 1 ? name : name + ", " + material;
+        mesh.name = part_name(name, model.meshes().size(), material);
         result.push_back(add_mesh(std::move(mesh), part.material));
     }
     return result;
@@ -83,7 +95,7 @@ void SceneBuilder::place_model(const std::string& name, const ModelMeshes& model
     for (const int mesh : model) {
         const int material = scene_.meshes[static_cast<std::size_t>(mesh)].material;
         const std::string& part = scene_.materials[static_cast<std::size_t>(material)].name;
-        place_mesh(model.size() == 1 ? name : name + ", " + part, mesh, world_from_model);
+        place_mesh(part_name(name, model.size(), part), mesh, world_from_model);
     }
 }
 

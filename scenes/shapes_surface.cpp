@@ -40,7 +40,9 @@ void add_end(Mesh& mesh, const std::vector<glm::vec3>& ring, const glm::vec3& no
 Mesh make_surface(int columns, int rows, bool closed_u, const std::function<glm::vec3(float, float)>& at) {
     Mesh mesh;
     const int width = columns + 1;
-    const auto index = [width](int x, int y) { return static_cast<std::size_t>(y * width + x); };
+    const auto index = [width](int x, int y) {
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+    };
     for (int y = 0; y <= rows; ++y)
         for (int x = 0; x <= columns; ++x) {
             const float u = static_cast<float>(x) / static_cast<float>(columns);

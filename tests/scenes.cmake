@@ -14,6 +14,7 @@ macula_test(bunny_box_test
     SOURCES unit/bunny_box_test.cpp property/mesh_attributes_test.cpp
     LINK macula_scenes
     LABELS fast)
+macula_test(made_shapes_test SOURCES unit/made_shapes_test.cpp LINK macula_scenes LABELS fast)
 macula_test(air_shed_test SOURCES unit/air_shed_test.cpp LINK macula_scenes)
 macula_test(gltf_fuzz_test
     SOURCES fuzz/gltf_corpus.cpp fuzz/gltf_fuzz.cpp fuzz/gltf_fuzz_test.cpp
