@@ -21,8 +21,8 @@ Expected<LoadedScene> load_as_it_is(const std::string& name_or_path, const LoadP
     std::transform(extension.begin(), extension.end(), extension.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     if (extension == ".gltf" || extension == ".glb") return load_gltf(name_or_path);
-    return fail(ErrorCode::option,
-                "unknown scene \"" + name_or_path + "\"; known are bunny-box, air-shed and paths that end in .gltf or .glb");
+    return fail(ErrorCode::option, "unknown scene \"" + name_or_path +
+                                       "\"; known are bunny-box, air-shed and paths that end in .gltf or .glb");
 }
 
 Expected<void> start_from(Scene& scene, const std::string& camera, bool level) {
