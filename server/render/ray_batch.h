@@ -17,6 +17,12 @@
 
 namespace macula {
 
+// Measured on Bunny Box with every reflection traced, .13 secondary rays for each primary one (trace_bench
+// --bounce-bound 0, 27 %, processor time, two runs each): waves in the order in which rays were sent, 331 and 315 ns a
+// primary ray; sorted by octant and kind 321 and 312; sorted by sample 322 and 321; waves of 64 rays 313 and 315;
+// secondary rays traced after each eye packet instead of after 16, which leaves more lanes empty, 320 and 317. No
+// choice stands out from the noise, so there is no sorting.
+
 /// Primary packets of a batch. More of them fill the packets of secondary rays better, and need more cache.
 inline constexpr int kBatchPackets = 16;
 inline constexpr int kBatchSamples = kBatchPackets * kLaneCount;
