@@ -2,7 +2,10 @@
 // same primary, shadow and secondary rays in the same packets of 16. The rays are recorded as the tracer traces them;
 // then both are timed alternately in one run, and the best time of each counts.
 //
-// usage: trace_bench [--scene NAME] [--bounces N] [--bounce-bound X] [options of Google Benchmark]
+// usage: trace_bench [--scene NAME] [--plain] [--display NAME] [--bounces N] [--bounce-bound X]
+//                    [options of Google Benchmark]
+//
+// --plain leaves nothing of the scene but its shape and its lights: rough white surfaces and hard shadows.
 
 #include <algorithm>
 #include <array>
@@ -31,6 +34,8 @@ namespace {
 /// What the command line asks for.
 struct Arguments {
     std::string scene = "bunny-box";
+    std::string display = "vive";
+    bool plain = false;
     TracerOptions options;
 };
 
@@ -62,14 +67,29 @@ struct Frame {
     [[nodiscard]] std::size_t rays() const { return plans[0].trace_order.size() + plans[1].trace_order.size(); }
 };
 
+/// The scene's shape in rough white, under its lights without extent.
+std::shared_ptr<const Scene> stripped(const Scene& scene) {
+    Scene plain = scene;
+    Material white;
+    white.metallic = 0.0F;
+    white.double_sided = true;
+    plain.materials.assign(plain.materials.size(), white);
+    for (Mesh& mesh : plain.meshes) mesh.color.clear();
+    for (Light& light : plain.lights) light.radius_m = light.angular_radius_rad = 0.0F;
+    std::erase_if(plain.lights, [](const Light& light) { return light.kind == LightKind::rectangle; });
+    plain.environment = {};
+    return std::make_shared<const Scene>(std::move(plain));
+}
+
 /// A display, the scene of the command line, and a frame of `percent` of the pixels.
 std::optional<Frame> load_frame(benchmark::State& state, std::shared_ptr<const Scene>& scene, std::int64_t percent) {
     static std::optional<LoadedScene> kept;  // large scenes take seconds to load
     if (!kept) {
         auto loaded = load_scene(arguments().scene);
+        if (loaded && arguments().plain) loaded->scene = stripped(*loaded->scene);
         if (loaded) kept = std::move(*loaded);
     }
-    const auto display = load_display("vive");
+    const auto display = load_display(arguments().display);
     if (!kept || !display) {
         state.SkipWithError("scene or display failed to load");
         return std::nullopt;
@@ -163,6 +183,10 @@ int main(int argc, char** argv) {
         const bool has_value = i + 1 < argc;
         if (name == "--scene" && has_value) {
             macula::arguments().scene = argv[++i];
+        } else if (name == "--plain") {
+            macula::arguments().plain = true;
+        } else if (name == "--display" && has_value) {
+            macula::arguments().display = argv[++i];
         } else if (name == "--bounces" && has_value) {
             macula::arguments().options.bounces = std::atoi(argv[++i]);
         } else if (name == "--bounce-bound" && has_value) {
