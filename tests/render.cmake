@@ -37,6 +37,11 @@ macula_test(tracer_path_test
     LINK macula_tracer macula_scenes
     LABELS fast)
 
+macula_test(tracer_reference_test
+    SOURCES differential/direct_light_test.cpp differential/secondary_rays_test.cpp
+    LINK macula_tracer macula_scenes
+    LABELS fast)
+
 macula_test(bunny_box_golden_test
     SOURCES golden/bunny_box_test.cpp
     LINK macula_tracer macula_scenes macula_test_pictures)
