@@ -68,22 +68,15 @@ LaneMask ShadowRays::reaching(const SurfacePacket& surfaces, LightPacket& light,
     return free_lanes(rays) & light.lanes;
 }
 
-/// Pattern of a pixel, 0..1, even over neighbours (Jimenez 2014).
-float gradient_noise(float x, float y) {
-    const float phase = 0.06711056F * x + 0.00583715F * y;
-    const float folded = 52.9829189F * (phase - std::floor(phase));
-    return folded - std::floor(folded);
-}
-
-/// Where samples lie within their strata, by lane.
+/// By how much each lane's samples are moved around the light.
 LightPlaces place_offsets(const Lanes<std::uint32_t>& pixel) {
     LightPlaces offset;
     MACULA_LANE_LOOP
     for (int i = 0; i < kLaneCount; ++i) {
-        const auto x = static_cast<float>(static_cast<int>(pixel[i] & 0xFFFFU));
-        const auto y = static_cast<float>(static_cast<int>(pixel[i] >> 16U));
-        offset.x[i] = gradient_noise(x, y);
-        offset.y[i] = gradient_noise(y + 47.0F, x + 17.0F);  // another part of the same pattern, turned
+        const vec2 place =
+            kernels::light_offset(static_cast<int>(pixel[i] & 0xFFFFU), static_cast<int>(pixel[i] >> 16U));
+        offset.x[i] = place.x;
+        offset.y[i] = place.y;
     }
     return offset;
 }
