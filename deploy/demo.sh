@@ -6,7 +6,7 @@ set -euo pipefail
 usage() {
     cat <<USAGE
 usage: deploy/demo.sh [options]
-  --scene NAME|FILE      bunny-box, or any .gltf / .glb              (default bunny-box)
+  --scene NAME|FILE      bunny-box, air-shed, or any .gltf / .glb              (default bunny-box)
   --gaze FILE|SOURCE     a recording (Macula CSV or Salient360), or a source such as sim:7
                          (default: a simulated viewer, recorded first and then replayed)
   --seconds N            how long the client stays connected         (default 10)
