@@ -9,8 +9,21 @@ bin=build/release/tests
 
 step() { printf '\n== %s\n' "$*"; }
 
-step "Tracing with shading and shadows against bare Embree on the same rays (share_of_bare_speed)"
-$bin/trace_bench 2>/dev/null
+step "Tracing with all that belongs to it against bare Embree on the same rays (share_of_bare_speed)"
+for scene in "--scene air-shed" "--scene bunny-box" "--scene bunny-box --plain"; do
+    echo "-- $scene"
+    # shellcheck disable=SC2086 # options, not one word
+    $bin/trace_bench --display desktop $scene --benchmark_filter='bare/(100|18)/' 2>/dev/null
+done
+step "Code for features that the scene does not need, forced on (time_with_over_without, by bit of scenes/needs.h)"
+$bin/trace_bench --display desktop --plain --benchmark_filter=unused_feature 2>/dev/null
+step "Cost of a sample and memory of a triangle, 45 k to 5 M triangles"
+$bin/scaling_bench 2>/dev/null
+step "Shimmer and accuracy of filtered textures"
+$bin/shimmer_bench 378 4
+step "Kernels of reflectance, texture lookup"
+$bin/lobes_bench 2>/dev/null
+$bin/texture_bench 2>/dev/null
 step "Trace and reconstruct at each share against full sampling"
 $bin/speedup_bench vive bunny-box 15
 step "Plan of one eye, one core"
