@@ -42,6 +42,11 @@ macula_test(tracer_reference_test
     LINK macula_tracer macula_scenes
     LABELS fast)
 
+macula_test(tracer_light_test
+    SOURCES golden/area_light_test.cpp golden/environment_light_test.cpp golden/footprint_test.cpp
+    LINK macula_tracer macula_scenes
+    LABELS fast)
+
 macula_test(bunny_box_golden_test
     SOURCES golden/bunny_box_test.cpp
     LINK macula_tracer macula_scenes macula_test_pictures)
