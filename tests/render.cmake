@@ -37,6 +37,12 @@ macula_test(tracer_path_test
     LINK macula_tracer macula_scenes
     LABELS fast)
 
+# Its constants come from another renderer, by golden/independent_renderer.py.
+macula_test(independent_renderer_test
+    SOURCES golden/independent_renderer_test.cpp
+    LINK macula_tracer macula_scenes
+    LABELS fast)
+
 macula_test(tracer_reference_test
     SOURCES differential/direct_light_test.cpp differential/secondary_rays_test.cpp
     LINK macula_tracer macula_scenes
