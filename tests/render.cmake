@@ -53,6 +53,11 @@ macula_test(tracer_light_test
     LINK macula_tracer macula_scenes
     LABELS fast)
 
+macula_test(tracer_threads_test
+    SOURCES unit/tracer_threads_test.cpp
+    LINK macula_tracer macula_scenes TBB::tbb
+    LABELS fast threads)
+
 macula_test(bunny_box_golden_test
     SOURCES golden/bunny_box_test.cpp
     LINK macula_tracer macula_scenes macula_test_pictures)

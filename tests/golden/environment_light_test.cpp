@@ -152,7 +152,8 @@ TEST(EnvironmentLight, WhiteBallsVanishInAWhiteWorld) {
     Scene scene;
     surround(scene, constant_map(0.5F), 2.0F);
     for (std::size_t i = 0; i < materials.size(); ++i) {
-        const vec3 place(static_cast<float>(i % 3) - 1.0F, static_cast<float>(i / 3) - 1.0F, -2.0F);
+        const std::size_t row = i / 3;
+        const vec3 place(static_cast<float>(i % 3) - 1.0F, static_cast<float>(row) - 1.0F, -2.0F);
         test::add(scene, make_sphere(0.45F), materials[i].material, glm::translate(glm::mat4(1.0F), place));
     }
     for (const float bound : {0.0F, 0.02F}) {

@@ -54,7 +54,7 @@ SamplePlan sparse_plan() {
     plan.tiles_y = plan.tiles_x;
     constexpr std::uint8_t kSixteen = 7;
     static_assert(kLevelCounts[kSixteen] == 16);
-    plan.level.assign(static_cast<std::size_t>(plan.tiles_x * plan.tiles_y), kSixteen);
+    plan.level.assign(std::size_t{kSize / kTileEdge_px} * (kSize / kTileEdge_px), kSixteen);
     return plan;
 }
 
