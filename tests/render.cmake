@@ -56,7 +56,7 @@ macula_test(tracer_light_test
 macula_test(tracer_threads_test
     SOURCES unit/tracer_threads_test.cpp
     LINK macula_tracer macula_scenes TBB::tbb
-    LABELS fast threads)
+    LABELS fast)
 
 macula_test(bunny_box_golden_test
     SOURCES golden/bunny_box_test.cpp
