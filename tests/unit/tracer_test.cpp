@@ -11,7 +11,7 @@ namespace {
 
 using glm::vec3;
 
-/// A lit ball before a wall, with a texture and a mask, so that every path is taken.
+/// A lit ball before a wall, with a texture, a mask, a mirror and glass, so that every path is taken.
 Scene still_life() {
     Scene scene;
     scene.ambient_radiance = vec3(0.2F);
@@ -28,6 +28,15 @@ Scene still_life() {
     test::add(scene, test::wall({-1.0F, 0.5F, -3.0F}, 0.6F), masked);
     test::add(scene, make_sphere(0.8F), test::white(),
               glm::mat4(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0.3F, 0, -2.5F, 1));
+    Material mirror = test::white();
+    mirror.metallic = 1.0F;
+    mirror.roughness = 0.0F;
+    test::add(scene, test::wall({1.2F, -1.0F, -2.2F}, 0.5F), mirror);
+    Material glass = test::white();
+    glass.roughness = 0.0F;
+    glass.transmission = 1.0F;
+    glass.thickness_m = 1.0F;
+    test::add(scene, make_sphere(0.4F), glass, glm::mat4(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -0.9F, -0.8F, -2.0F, 1));
     return scene;
 }
 
