@@ -107,8 +107,9 @@ KERNEL LightSample sample_light(KERNEL_IN(RectangleLight) light, vec3 point, vec
 /// at any angle meet evenly spread samples. `offset` moves all samples around the square; the mean over offsets is over
 /// the whole square. One sample at offset 0 is the light's centre.
 KERNEL vec2 stratified_place(int i, int side, vec2 offset) {
+    int row_index = i / side;
     float column = float(i % side);
-    float row = float(i / side);
+    float row = float(row_index);
     float scale = 1.0F / float(side);
     vec2 canonical = vec2(column + (row + 0.5F) * scale, row + (column + 0.5F) * scale) * scale;
     return fract(canonical + offset);

@@ -16,7 +16,8 @@ KERNEL float log2_near(float x) {
     float p = 1.44269456F +
               z * (-0.72137989F +
                    z * (0.48100567F + z * (-0.35838877F + z * (0.2846182F + z * (-0.27999809F + z * 0.25264535F)))));
-    return float(int(exponent) / 8388608) + z * p;
+    int whole = int(exponent) / 8388608;  // 2^23: exact
+    return float(whole) + z * p;
 }
 
 /// 2 to the power of x, relative error below 3e-7; 2^-126 for less than -126, 2^126 for more than 126. The polynomial
