@@ -27,6 +27,7 @@ class EnvironmentMap {
 public:
     /// Keeps a pointer to the image, which has one to four channels of any type, and reads its colour as radiance.
     EnvironmentMap(const TextureImage& image, float intensity, float rotation_rad);
+    EnvironmentMap(TextureImage&&, float, float) = delete;
 
     /// Mean radiance from a cone of directions around `direction` (any length) that is `width_rad` wide in all; 0 reads
     /// the image itself.

@@ -89,7 +89,8 @@ TEST(Environment, AConstantMapIsTheSameForAllDirectionsAndRoughness) {
     std::mt19937 random(1);
     for (const TexelType type : {TexelType::u8, TexelType::u16, TexelType::f16, TexelType::f32})
         for (const int channels : {1, 3}) {
-            const EnvironmentMap map(constant_map(type, channels, 0.6F), 2.0F, 0.7F);
+            const TextureImage image = constant_map(type, channels, 0.6F);
+            const EnvironmentMap map(image, 2.0F, 0.7F);
             for (int i = 0; i < 200; ++i) {
                 const vec3 d = i == 0 ? vec3(0, 1, 0) : (i == 1 ? vec3(0, -1, 0) : random_direction(random));
                 const float size = static_cast<float>(i) / 199.0F;

@@ -70,12 +70,12 @@ TEST(Shot, PositionReplacesAndTurnsAddToTheStartPose) {
     options.yaw_deg = 90.0;
     options.pitch_deg = 30.0;
     const vec3 ahead(0.0F, 0.0F, -1.0F);
-    const Pose& eye = shots_of(options)[0].view.world_from_eye;
+    const Pose eye = shots_of(options)[0].view.world_from_eye;
     expect_near(eye.position_m, {1.0F, -2.5F, 30.0F});
     expect_near(eye.direction(ahead), {-std::sqrt(0.75F), 0.5F, 0.0F});
     const Pose start{glm::angleAxis(glm::radians(90.0F), vec3(0.0F, 1.0F, 0.0F)), {7.0F, 8.0F, 9.0F}};
     options.position = "";
-    const Pose& turned = shots_of(options, start)[0].view.world_from_eye;
+    const Pose turned = shots_of(options, start)[0].view.world_from_eye;
     expect_near(turned.position_m, {7.0F, 8.0F, 9.0F});
     expect_near(turned.direction(ahead), {0.0F, 0.5F, std::sqrt(0.75F)});
 }
