@@ -183,11 +183,15 @@ std::uint32_t light_needs(const Light& light) {
 }
 
 SceneNeeds scene_needs(const Scene& scene) {
+    SurfaceNeeds surfaces(scene);
+    return scene_needs(scene, surfaces);
+}
+
+SceneNeeds scene_needs(const Scene& scene, SurfaceNeeds& surfaces) {
     // What a mesh asks for is found once, however often it is placed.
     Askers askers;
     std::vector<bool> seen(scene.meshes.size(), false);
     std::map<int, std::uint32_t> of_material;
-    SurfaceNeeds surfaces(scene);
     for (std::size_t i = 0; i < scene.instances.size(); ++i) {
         const Instance& instance = scene.instances[i];
         const auto index = static_cast<std::size_t>(instance.mesh);

@@ -74,7 +74,9 @@ private:
 /// What a light asks for; nothing where its intensity is zero.
 std::uint32_t light_needs(const Light& light);
 
-/// What all instances and lights ask for together.
+/// What all instances and lights ask for together; `surfaces` is of the same scene, and what it has read is not read
+/// again.
+SceneNeeds scene_needs(const Scene& scene, SurfaceNeeds& surfaces);
 SceneNeeds scene_needs(const Scene& scene);
 
 /// One line per need: its name, yes or no, and the reason.

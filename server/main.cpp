@@ -88,7 +88,6 @@ Expected<std::shared_ptr<const Scene>> load(const SceneOptions& options, const L
         "loaded in {:.2f} s",
         scene.name, scene.triangle_count(), scene.instances.size(), scene.meshes.size(), scene.materials.size(),
         scene.images.size(), 1e-6 * static_cast<double>(texture_bytes), scene.lights.size(), seconds_since(start));
-    logger->info("the scene needs: {} (--explain-scene says why)", summary(scene_needs(scene)));
     return loaded->scene;
 }
 
@@ -163,6 +162,8 @@ Expected<void> run(const Options& options, const Logger& logger) {
 
     const auto scene = load(options.scene, logger);
     if (!scene) return tl::unexpected(scene.error());
+    const SceneNeeds needs = scene_needs(**scene);
+    logger->info("the scene needs: {} (--explain-scene says why)", summary(needs));
     const auto tracer = make_tracer(*scene, options.scene.tracer, logger);
     if (!tracer) return tl::unexpected(tracer.error());
     const auto tables = std::make_shared<const TileTables>(make_rank_tile());
@@ -174,7 +175,6 @@ Expected<void> run(const Options& options, const Logger& logger) {
     supplies.tracer = *tracer;
     supplies.rank_tile = std::shared_ptr<const RankTile>(tables, &tables->rank_tile());
     supplies.renderer = (*tracer)->name() + "; " + (*reconstructors)->name();
-    const SceneNeeds needs = scene_needs(**scene);
     supplies.image_depth = needs.has(kNeedMirrors) || needs.has(kNeedTransmission) || needs.has(kNeedRefraction);
     supplies.default_sampling = options.sampling;
     supplies.make_sampler = [tables](const Display& display, Eye eye, const std::string& preset) {

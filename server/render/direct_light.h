@@ -9,10 +9,9 @@ namespace macula {
 /// a shadow ray for each lane that they could reach, others `light_samples`, for the lanes that each sample could
 /// reach: not where range or cone end, where the surface turns away, or behind a rectangle.
 ///
-/// A sample's place on the light is that of its stratum, moved by a pattern that is fixed to the image's pixels
-/// (Jimenez 2014, "Next generation post processing in Call of Duty", interleaved gradient noise): neighbours differ as
-/// evenly as can be, so that reconstruction and the client's accumulation average them, and a still picture stands
-/// still.
+/// A sample's place on the light is that of its stratum, moved by an offset of the pixel alone (kernels::light_offset):
+/// neighbours differ as evenly as can be, so that reconstruction and the client's accumulation average them, and a
+/// still picture stands still.
 void add_lights(const ShadingContext& context, const HitPacket& hits, SurfacePacket& surfaces, RayTap* tap,
                 TraceCounts& counts) noexcept;
 

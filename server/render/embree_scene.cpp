@@ -15,7 +15,7 @@ namespace {
 
 static_assert(RTC_INVALID_GEOMETRY_ID == 0xFFFFFFFFU);
 
-/// Poses that are kept for calls to come: more than the sessions that a server holds.
+/// Poses that are kept for calls to come: twice the sessions that a server holds by default.
 constexpr std::size_t kKeptPoses = 8;
 
 Error embree_error(RTCDevice device, const std::string& what) {

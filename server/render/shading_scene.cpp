@@ -95,7 +95,7 @@ ShadingScene::ShadingScene(std::shared_ptr<const Scene> scene) : scene_(std::mov
     pose_nodes(scene_->animation, 0.0, world_from_node);
     for (const glm::mat4& node : world_from_node) node_from_world_.push_back(glm::inverse(node));
     lights_ = lights_at(world_from_node);
-    needs_ = scene_needs(*scene_).needs;
+    needs_ = scene_needs(*scene_, needs).needs;
     if ((needs_ & kNeedEnvironment) != 0) {
         const Environment& environment = scene_->environment;
         environment_ = std::make_unique<EnvironmentMap>(scene_->images[static_cast<std::size_t>(environment.image)],
