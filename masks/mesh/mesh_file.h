@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <string>
 
 #include "masks/mesh/sample_mesh.h"
@@ -12,9 +14,12 @@ namespace macula {
 /// appears whole or not at all (written beside and renamed). Errors: `output`.
 Expected<void> write_mesh(const SampleMesh& mesh, const std::string& path);
 
-/// Reads what write_mesh wrote. Checks everything that the rest relies on: sites are distinct pixels of the mask, its
-/// corners among them, triangles have three different corners that exist, in the right orientation.
-/// Errors: `input_file`, naming the file and what is wrong with it.
+/// Reads what write_mesh wrote. Checks everything that the rest relies on (mesh_defect(): sites are distinct pixels of
+/// the mask, triangles cover it once, in the right orientation). Errors: `input_file`, naming the file and what is
+/// wrong with it.
 Expected<SampleMesh> read_mesh(const std::string& path);
+
+/// The same of a file in memory; `name` is for messages.
+Expected<SampleMesh> read_mesh_from_memory(std::span<const std::uint8_t> bytes, const std::string& name);
 
 }  // namespace macula

@@ -26,4 +26,10 @@ struct SampleMesh {
     std::string recipe;                  ///< JSON: how it was made (masks/make/recipe.h); empty: unknown
 };
 
+/// What is wrong with a mesh, in words that follow its name; empty if nothing is. Right is: sides of 2 to 16384 pixels
+/// with the gaze in them; sites distinct pixels of the mask, each a corner; triangles with corners that exist, in
+/// Triangle's orientation, that cover the rectangle between the centres of the mask's corner pixels exactly once. That
+/// they are Delaunay is not checked: nothing breaks where they are not.
+std::string mesh_defect(const SampleMesh& mesh);
+
 }  // namespace macula
