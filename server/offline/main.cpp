@@ -8,11 +8,11 @@
 #include <oneapi/tbb/global_control.h>
 
 #include "protocol/base/clock.h"
+#include "protocol/base/progress.h"
 #include "scenes/needs.h"
 #include "server/offline/accumulate.h"
 #include "server/offline/layers.h"
 #include "server/offline/options.h"
-#include "server/offline/progress.h"
 #include "server/offline/report.h"
 #include "server/offline/shot.h"
 #include "server/offline/writer.h"
@@ -87,7 +87,7 @@ Expected<void> write(const RenderOptions& options, const LayerChoice& choice, fl
 }
 
 Expected<void> run(const RenderOptions& options) {
-    Progress progress(options.quiet);
+    Progress progress("macula-render", options.quiet);
     // What can be wrong is looked at before the scene is loaded, which may take a while.
     const auto choice = parse_layers(options.write);
     if (!choice) return tl::unexpected(choice.error());
