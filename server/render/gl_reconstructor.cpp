@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <utility>
@@ -10,6 +9,7 @@
 #include "protocol/gl/buffer.h"
 #include "protocol/gl/compute.h"
 #include "protocol/gl/context.h"
+#include "server/render/gl_picture.h"
 #include "server/render/reconstruct_source.h"
 #include "server/render/reconstructor.h"
 
@@ -39,13 +39,6 @@ struct FlatTables {
     }
 };
 
-/// Copies rows without gaps to rows that may be longer.
-template <class T>
-void copy_rows(std::span<const T> from, int width, T* to, std::size_t stride) {
-    for (; !from.empty(); from = from.subspan(static_cast<std::size_t>(width)), to += stride)
-        std::copy_n(from.begin(), width, to);
-}
-
 class GlReconstructor final : public Reconstructor {
 public:
     /// The context is current.
@@ -63,13 +56,7 @@ public:
         upload(plan, samples);
         bind();
         program_.dispatch(static_cast<unsigned>(plan.tiles_x - 2), static_cast<unsigned>(plan.tiles_y - 2));
-        auto color = pixel_colors_.read([&](std::span<const Rgba8> pixels) {
-            copy_rows(pixels, plan.width_px, target.color, target.color_stride_px);
-        });
-        if (!color) return color;
-        return pixel_inverse_depths_.read([&](std::span<const float> pixels) {
-            copy_rows(pixels, plan.width_px, target.inverse_depth_per_m, target.depth_stride_px);
-        });
+        return picture_.copy_to(target);
     }
     [[nodiscard]] std::string name() const override {
         return "GL (" + context_->kind_name() + ", " + context_->renderer() + ")";
@@ -85,9 +72,7 @@ private:
         colors_.write(std::span(samples.color).first(addresses));
         inverse_depths_.write(std::span(samples.inverse_depth_per_m).first(addresses));
         view_.write(reconstruct_view(plan));
-        const auto pixels = static_cast<std::size_t>(plan.width_px) * static_cast<std::size_t>(plan.height_px);
-        pixel_colors_.resize(pixels);
-        pixel_inverse_depths_.resize(pixels);
+        picture_.resize(plan.width_px, plan.height_px);
     }
     void bind() const {
         interpolations_.bind(0);
@@ -96,8 +81,7 @@ private:
         colors_.bind(3);
         inverse_depths_.bind(4);
         view_.bind(5);
-        pixel_colors_.bind(6);
-        pixel_inverse_depths_.bind(7);
+        picture_.bind(6, 7);
     }
 
     // Members below the context belong to it and go first.
@@ -109,8 +93,7 @@ private:
     StorageBuffer<Rgba8> colors_{*context_};
     StorageBuffer<float> inverse_depths_{*context_};
     StorageBuffer<ReconstructView> view_{*context_};
-    StorageBuffer<Rgba8> pixel_colors_{*context_};
-    StorageBuffer<float> pixel_inverse_depths_{*context_};
+    GlPicture picture_{*context_};
     std::vector<glm::uvec2> tile_scratch_;
 };
 

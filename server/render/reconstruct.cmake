@@ -3,7 +3,7 @@ macula_library(macula_reconstruct
     SOURCES reference_reconstructor.cpp cpu_reconstructor.cpp gl_reconstructor.cpp
             reconstructor_choice.cpp reconstructor_factory.cpp
     LINK macula_masks
-    PRIVATE_LINK macula_kernels macula_gl macula_parallel)
+    PRIVATE_LINK macula_kernels macula_gl macula_parallel macula_sample_image)
 # The reference and the fast path agree to the bit: neither may fuse a product and a sum that the other does not.
 set_source_files_properties(reference_reconstructor.cpp cpu_reconstructor.cpp PROPERTIES COMPILE_OPTIONS -ffp-contract=off)
 macula_kernel_text(macula_reconstruct
