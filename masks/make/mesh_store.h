@@ -6,7 +6,6 @@
 
 #include "masks/make/mask.h"
 #include "masks/make/recipe.h"
-#include "masks/mesh/mesh_table.h"
 #include "masks/mesh/sample_mesh.h"
 #include "protocol/base/error.h"
 

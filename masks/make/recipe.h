@@ -41,8 +41,13 @@ Expected<MaskGeometry> parse_mask_geometry(const std::string& text);
 std::string to_string(Placement placement);
 std::string to_string(MaskGeometry geometry);
 
-/// The recipe as JSON on one line, keys sorted: what files carry and what names a cached result.
+/// The recipe as JSON on one line, keys sorted: what files carry and what names a cached result. It holds the law's
+/// constants and a version of the making too, so that it changes whenever the mask does.
 std::string to_json(const Recipe& recipe);
+
+/// The recipe of a JSON that to_json() wrote; the display is what masks depend on: name, size and the left eye's
+/// tangents, which the right eye has mirrored. Errors: `input_file`, naming what is wrong.
+Expected<Recipe> parse_recipe(const std::string& json);
 
 /// 16 hexadecimal digits of a recipe's JSON (FNV-1a).
 std::string recipe_hash(const std::string& recipe_json);
