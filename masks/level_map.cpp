@@ -7,6 +7,13 @@
 namespace macula {
 namespace {
 
+/// The table reaches 180 degrees before stretching. A step of 1/4 degree puts the kink of the ring map on an entry.
+constexpr double kEntriesPerDegree = 4.0;
+constexpr int kEntries = 180 * 4;
+
+/// Stands for any distance of samples that is much wider than the image, also where nothing is seen at all.
+constexpr double kMostSpacing_deg = 1e3;
+
 /// Arc cosine to 1e-6 rad and vectorisable (Abramowitz and Stegun 4.4.46).
 inline float arc_cosine(float x) {
     const float m = std::min(std::abs(x), 1.0F);
@@ -24,19 +31,27 @@ inline float arc_cosine(float x) {
 
 }  // namespace
 
-// The need at a tile is p = (2 fc / ppd)^x with fc = K / (max(0, e - S) + e2), K = e2 ln(1 / CT0) / alpha, and
-// ppd = c q^(3/4). Its root is the inverse of the spacing u = (max(0, e - S) + e2) c q^(3/4) / (2 K), so that
-// p > b is u < b^(-1/x): levels follow from comparing u with constants, and nothing is raised to a power.
-LevelMap::LevelMap(const Display& display, Eye eye, const AcuityLaw& law, double hysteresis) {
+// The need at a tile is p = (2 fc / ppd)^x with ppd = c q^(3/4), q = 1 / cos^2 of the angle from the axis. Its root is
+// the inverse of the spacing u = m c q^(3/4), where m = 1 / (2 fc) is the distance of the samples in degrees, so that
+// p > b is u < b^(-1/x): levels follow from comparing u with constants, and nothing is raised to a power. m c is
+// interpolated between the entries of a table by eccentricity. Between its kinks m is a straight line in most laws, for
+// which that is exact.
+LevelMap::LevelMap(const Display& display, Eye eye, const AcuityLaw& law, double hysteresis)
+    : full_acuity_deg_(law.full_acuity_deg), spacing_at_(kEntries), spacing_rise_(kEntries) {
     const Tangents& edge = display.eyes[eye].tangents;
     tangent_at_zero_px_ = {edge.left, edge.top};
     tangent_per_px_ = {(edge.right - edge.left) / static_cast<float>(display.eye_width_px),
                        (edge.bottom - edge.top) / static_cast<float>(display.eye_height_px)};
-    const double k = law.e2_deg * std::log(1.0 / law.contrast) / law.alpha_deg;
-    const double scale = pixels_per_degree(display, eye, 0.0, 0.0) / (2.0 * k);
-    slope_ = static_cast<float>(scale * 180.0 / std::numbers::pi);
-    offset_ = static_cast<float>(scale * (law.e2_deg - law.full_acuity_deg));
-    least_ = static_cast<float>(scale * law.e2_deg);
+    const double px_per_deg = pixels_per_degree(display, eye, 0.0, 0.0);
+    const auto spacing_at = [&](int entry) {
+        const double cutoff_cpd = cutoff_frequency_cpd(law.model, entry / kEntriesPerDegree);
+        return px_per_deg * std::min(0.5 / cutoff_cpd, kMostSpacing_deg);
+    };
+    for (int i = 0; i < kEntries; ++i) {
+        spacing_at_[i] = static_cast<float>(spacing_at(i));
+        spacing_rise_[i] = static_cast<float>(spacing_at(i + 1) - spacing_at(i));
+    }
+    set_stretch(law.stretch);
     for (int level = 1; level < kFullLevel; ++level) {
         const double boundary = std::sqrt(1.0 * kLevelCounts[level] * kLevelCounts[level + 1]) / kTileArea_px;
         rise_[level - 1] = static_cast<float>(std::pow(boundary, -1.0 / law.exponent));
@@ -44,8 +59,15 @@ LevelMap::LevelMap(const Display& display, Eye eye, const AcuityLaw& law, double
     }
 }
 
+void LevelMap::set_stretch(double stretch) {
+    const double steps_per_deg = kEntriesPerDegree / stretch;
+    steps_per_rad_ = static_cast<float>(steps_per_deg * 180.0 / std::numbers::pi);
+    full_steps_ = static_cast<float>(steps_per_deg * full_acuity_deg_);
+}
+
 void LevelMap::update(const TileGrid& grid, const glm::vec3& gaze_eye, std::uint8_t* levels, int stride) {
     const auto columns = static_cast<std::size_t>(grid.tiles.x);
+    steps_.resize(columns);
     spacing_.resize(columns);
     risen_.resize(columns);
     kept_.resize(columns);
@@ -63,6 +85,7 @@ void LevelMap::update_row(const TileGrid& grid, int row, const glm::vec3& gaze_e
     const float along_row = gaze_eye.y * tan_y - gaze_eye.z;
 
     // Plain loops over arrays, each of which the compiler vectorises.
+    float* steps = steps_.data();
     float* spacing = spacing_.data();
     std::int32_t* risen = risen_.data();
     std::int32_t* kept = kept_.data();
@@ -71,9 +94,17 @@ void LevelMap::update_row(const TileGrid& grid, int row, const glm::vec3& gaze_e
         const float q = 1.0F + tan_x * tan_x + tan_y * tan_y;
         const float root = std::sqrt(q);
         const float eccentricity_rad = arc_cosine((gaze_eye.x * tan_x + along_row) / root);
-        spacing[i] = std::max(slope_ * eccentricity_rad + offset_, least_) * root * std::sqrt(root);
+        steps[i] = std::max(steps_per_rad_ * eccentricity_rad - full_steps_, 0.0F);
+        spacing[i] = root * std::sqrt(root);
         risen[i] = 1;
         kept[i] = 1;
+    }
+    const float* at = spacing_at_.data();
+    const float* rise_after = spacing_rise_.data();
+    for (int i = 0; i < columns; ++i) {
+        // Beyond the table its last line goes on.
+        const auto entry = static_cast<std::int32_t>(std::min(steps[i], static_cast<float>(kEntries - 1)));
+        spacing[i] *= at[entry] + rise_after[entry] * (steps[i] - static_cast<float>(entry));
     }
     for (std::size_t l = 0; l < rise_.size(); ++l) {
         const float rise = rise_[l];

@@ -30,6 +30,9 @@ public:
     /// between the two; 1 is none.
     LevelMap(const Display& display, Eye eye, const AcuityLaw& law, double hysteresis = 1.0);
 
+    /// Changes the law's stretch, at no cost.
+    void set_stretch(double stretch);
+
     /// Computes the levels 1..kFullLevel of the grid's tiles, row-major, for a gaze in eye space. `levels` holds the
     /// levels of the frame before, rows `stride` apart, or zeros; it is overwritten.
     void update(const TileGrid& grid, const glm::vec3& gaze_eye, std::uint8_t* levels, int stride);
@@ -39,14 +42,15 @@ private:
 
     glm::vec2 tangent_at_zero_px_;
     glm::vec2 tangent_per_px_;
-    /// Spacing that the law allows, in local pixels over the exponent's root: max(slope e + offset, least) q^3/4
-    /// for e in radians and q = 1 / cos^2 of the angle from the axis; see the .cpp.
-    float slope_ = 0.0F;
-    float offset_ = 0.0F;
-    float least_ = 0.0F;
+    double full_acuity_deg_;
+    float steps_per_rad_ = 0.0F;                ///< from eccentricity to steps of the table
+    float full_steps_ = 0.0F;                   ///< steps of full acuity
+    std::vector<float> spacing_at_;             ///< table: spacing that the law allows; see the .cpp
+    std::vector<float> spacing_rise_;           ///< to the next entry
     std::array<float, kFullLevel - 1> rise_{};  ///< below spacing [l - 1] the need is above level l
     std::array<float, kFullLevel - 1> keep_{};  ///< up to spacing [l - 1] a tile above level l stays above
-    std::vector<float> spacing_;                ///< of one row, scratch
+    std::vector<float> steps_;                  ///< of one row, scratch, as those that follow
+    std::vector<float> spacing_;
     std::vector<std::int32_t> risen_;
     std::vector<std::int32_t> kept_;
 };

@@ -7,8 +7,8 @@
 namespace macula {
 namespace {
 
-/// An e2 at which every tile but that of the gaze is at the sparsest level.
-constexpr double kSparsest_deg = 1e-3;
+/// A stretch at which every tile but that of the gaze is at the sparsest level.
+constexpr double kLeastStretch = 1e-4;
 
 /// Rays that a tracer takes at a time.
 constexpr int kPacket = 16;
@@ -68,7 +68,6 @@ void shift_addresses(std::span<const std::uint8_t> in_tile, std::uint32_t offset
 TileSampler::TileSampler(const Display& display, Eye eye, std::optional<AcuityLaw> law,
                          std::shared_ptr<const TileTables> tables, const TileSamplerOptions& options)
     : display_(display),
-      eye_(eye),
       law_(law),
       tables_(std::move(tables)),
       options_(options),
@@ -122,12 +121,14 @@ void TileSampler::choose_levels(const TileGrid& grid, const glm::vec3& gaze_eye)
     candidate_ = levels_;
     level_map_->update(grid, gaze_eye, candidate_.data(), most_tiles_.x);
     if (options_.max_samples > 0) {
-        AcuityLaw law = *law_;
-        while (visible_samples(grid, candidate_) > options_.max_samples && law.e2_deg > kSparsest_deg) {
-            law.e2_deg *= 0.97;
+        double stretch = law_->stretch;
+        while (visible_samples(grid, candidate_) > options_.max_samples && stretch > kLeastStretch) {
+            stretch *= 0.97;
+            level_map_->set_stretch(stretch);
             candidate_ = levels_;
-            LevelMap(display_, eye_, law, options_.hysteresis).update(grid, gaze_eye, candidate_.data(), most_tiles_.x);
+            level_map_->update(grid, gaze_eye, candidate_.data(), most_tiles_.x);
         }
+        level_map_->set_stretch(law_->stretch);
     }
     levels_.swap(candidate_);
 }

@@ -20,7 +20,7 @@ struct TileSamplerOptions {
     /// A tile drops to a sparser level only when the need falls below this part of the level boundary; 1: at once.
     float hysteresis = 0.8F;
     /// Most rays inside the window, 0 for any number; the few guard samples come on top. A plan that would exceed
-    /// it follows a law with a smaller e2, down to the sparsest level everywhere. No bound on a sampler without law.
+    /// it follows a law that is stretched less, down to the sparsest level everywhere. No bound on a sampler without law.
     std::uint32_t max_samples = 0;
 };
 
@@ -54,7 +54,6 @@ private:
     std::uint32_t* write_partial_tile(SamplePlan& plan, const glm::ivec2& at, std::uint32_t* next) const;
 
     Display display_;
-    Eye eye_;
     std::optional<AcuityLaw> law_;
     std::shared_ptr<const TileTables> tables_;
     TileSamplerOptions options_;

@@ -115,9 +115,7 @@ Expected<std::unique_ptr<Sampler>> make_sampler(const Display& display, Eye eye,
                                                 const std::shared_ptr<const TileTables>& tables) {
     const auto preset = parse_sampling(preset_name);
     if (!preset) return tl::unexpected(preset.error());
-    std::optional<AcuityLaw> law;
-    if (!preset->full) law = solve_law(display, eye, preset->share);
-    return std::make_unique<TileSampler>(display, eye, law, tables);
+    return std::make_unique<TileSampler>(display, eye, tile_law(display, eye, *preset), tables);
 }
 
 /// Serves until SIGINT or SIGTERM.

@@ -76,33 +76,6 @@ Expected<std::vector<float>> parse_numbers(const std::string& option, const std:
     return values;
 }
 
-Expected<AcuityLaw> parse_law(const std::string& text) {
-    constexpr std::string_view kPrefix = "law:";
-    AcuityLaw law;
-    const std::string_view values = std::string_view(text).substr(std::min(kPrefix.size(), text.size()));
-    for (const std::string_view part : split(values, ',')) {
-        const std::size_t equals = std::min(part.find('='), part.size());
-        const std::string_view name = part.substr(0, equals);
-        const auto value = number(part.substr(std::min(equals + 1, part.size())));
-        double* field = nullptr;
-        if (name == "alpha") field = &law.alpha_deg;
-        if (name == "e2") field = &law.e2_deg;
-        if (name == "contrast") field = &law.contrast;
-        if (name == "exponent") field = &law.exponent;
-        if (name == "full") field = &law.full_acuity_deg;
-        const bool in_range =
-            value && (*value > 0.0 || (name == "full" && *value == 0.0)) && (name != "contrast" || *value < 1.0);
-        if (field == nullptr || !in_range) {
-            return fail(
-                ErrorCode::option,
-                "--sampling " + text + ": '" + std::string(part) +
-                    "' is wrong: use alpha, e2, contrast (below 1), exponent and full, each NAME=VALUE above 0");
-        }
-        *field = *value;
-    }
-    return law;
-}
-
 Expected<ShotPlan> ShotPlan::parse(const RenderOptions& options) {
     ShotPlan plan;
     plan.camera_ = options.camera_fov_deg > 0.0;
@@ -122,15 +95,9 @@ Expected<ShotPlan> ShotPlan::parse(const RenderOptions& options) {
     if (!gaze) return tl::unexpected(gaze.error());
     plan.gaze_head_ = turn((*gaze)[0], (*gaze)[1]) * glm::vec3(0.0F, 0.0F, -1.0F);
 
-    if (options.sampling.starts_with("law:")) {
-        const auto law = parse_law(options.sampling);
-        if (!law) return tl::unexpected(law.error());
-        plan.law_ = *law;
-    } else {
-        const auto preset = parse_sampling(options.sampling);
-        if (!preset) return tl::unexpected(preset.error());
-        if (!preset->full) plan.share_ = preset->share;
-    }
+    auto preset = parse_sampling(options.sampling);
+    if (!preset) return tl::unexpected(preset.error());
+    plan.preset_ = *std::move(preset);
     return plan;
 }
 
@@ -146,8 +113,7 @@ std::vector<Shot> ShotPlan::shots(const Pose& world_from_start, const std::share
         shot.view = {world_from_head * geometry.head_from_eye, geometry.tangents, display_.eye_width_px,
                      display_.eye_height_px};
         shot.gaze_eye = glm::normalize(geometry.head_from_eye.inverse().direction(gaze_head_));
-        const std::optional<AcuityLaw> law = share_ ? solve_law(display_, eye, *share_) : law_;
-        shot.sampler = std::make_unique<TileSampler>(display_, eye, law, tables);
+        shot.sampler = std::make_unique<TileSampler>(display_, eye, tile_law(display_, eye, preset_), tables);
     }
     return result;
 }

@@ -38,7 +38,7 @@ public:
     [[nodiscard]] std::vector<Shot> shots(const Pose& world_from_start,
                                           const std::shared_ptr<const TileTables>& tables) const;
     /// Whether every visible pixel is traced.
-    [[nodiscard]] bool full() const { return !share_ && !law_; }
+    [[nodiscard]] bool full() const { return preset_.full; }
 
 private:
     Display display_;  ///< of a camera: the same for both eyes
@@ -47,13 +47,8 @@ private:
     std::optional<glm::vec3> position_m_;
     glm::quat start_from_head_ = glm::quat(1.0F, 0.0F, 0.0F, 0.0F);
     glm::vec3 gaze_head_ = glm::vec3(0.0F, 0.0F, -1.0F);
-    std::optional<double> share_;
-    std::optional<AcuityLaw> law_;
+    SamplingPreset preset_;
 };
-
-/// Parses "law:NAME=VALUE,..." with the names alpha, e2, contrast, exponent and full; those left out keep the values
-/// of AcuityLaw. Errors: `option`.
-Expected<AcuityLaw> parse_law(const std::string& text);
 
 /// Parses `count` finite numbers with commas between them. Errors: `option`, naming the option.
 Expected<std::vector<float>> parse_numbers(const std::string& option, const std::string& text, std::size_t count);

@@ -22,9 +22,7 @@ std::shared_ptr<const TileTables> shared_tables() {
 void plan_frames(benchmark::State& state, const std::string& display_name, const std::string& sampling) {
     const Display display = load_display(display_name).value();
     const SamplingPreset preset = parse_sampling(sampling).value();
-    std::optional<AcuityLaw> law;
-    if (!preset.full) law = solve_law(display, kLeftEye, preset.share);
-    TileSampler sampler(display, kLeftEye, law, shared_tables());
+    TileSampler sampler(display, kLeftEye, tile_law(display, kLeftEye, preset), shared_tables());
     SamplePlan plan;
     int frame = 0;
     double share = 0.0;

@@ -23,6 +23,7 @@
 #include "masks/tile_tables.h"
 #include "protocol/gl/context.h"
 #include "server/render/reconstructor.h"
+#include "tests/support/law_for_share.h"
 #include "tests/support/tile_plans.h"
 
 namespace macula {
@@ -46,7 +47,7 @@ Scenario make_scenario(int percent) {
     std::vector<std::uint8_t> levels(static_cast<std::size_t>(grid.tiles.x * grid.tiles.y), kFullLevel);
     if (percent < 100) {
         std::fill(levels.begin(), levels.end(), std::uint8_t{0});
-        LevelMap map(display, kLeftEye, solve_law(display, kLeftEye, percent / 100.0));
+        LevelMap map(display, kLeftEye, law_for_share(display, kLeftEye, percent / 100.0));
         map.update(grid, {0.0F, 0.0F, -1.0F}, levels.data(), grid.tiles.x);
     }
     const auto level = [&](int x, int y) {

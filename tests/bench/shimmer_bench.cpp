@@ -155,9 +155,7 @@ public:
           hidden_(hidden_pixels(display, kLeftEye)),
           reconstructor_(make_cpu_reconstructor(tables)) {
         const SamplingPreset preset = parse_sampling(sampling_).value();
-        std::optional<AcuityLaw> law;
-        if (!preset.full) law = solve_law(display, kLeftEye, preset.share);
-        sampler_ = std::make_unique<TileSampler>(display, kLeftEye, law, tables);
+        sampler_ = std::make_unique<TileSampler>(display, kLeftEye, tile_law(display, kLeftEye, preset), tables);
     }
 
     void add(const Tracer& tracer, const EyeView& view, int frame, const ColorImage& reference) {

@@ -49,9 +49,7 @@ public:
           depth_(2 * display.eye_width_px, display.eye_height_px) {
         const SamplingPreset preset = parse_sampling(sampling).value();
         for (const Eye eye : {kLeftEye, kRightEye}) {
-            std::optional<AcuityLaw> law;
-            if (!preset.full) law = solve_law(display, eye, preset.share);
-            samplers_[eye] = std::make_unique<TileSampler>(display, eye, law, tables);
+            samplers_[eye] = std::make_unique<TileSampler>(display, eye, tile_law(display, eye, preset), tables);
             views_[eye] = {scene.world_from_start * display.eyes[eye].head_from_eye, display.eyes[eye].tangents,
                            display.eye_width_px, display.eye_height_px};
         }

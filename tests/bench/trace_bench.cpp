@@ -26,6 +26,7 @@
 #include "scenes/needs.h"
 #include "server/render/tracer.h"
 #include "tests/support/bare_embree.h"
+#include "tests/support/law_for_share.h"
 #include "tests/support/stopwatch.h"
 
 namespace macula {
@@ -56,7 +57,7 @@ struct Frame {
             views[eye] = {scene.world_from_start * display.eyes[eye].head_from_eye, display.eyes[eye].tangents,
                           display.eye_width_px, display.eye_height_px};
             std::optional<AcuityLaw> law;
-            if (share < 1.0) law = solve_law(display, eye, share);
+            if (share < 1.0) law = law_for_share(display, eye, share);
             TileSampler(display, eye, law, tables).plan({}, plans[eye]);
         }
     }

@@ -10,6 +10,7 @@
 #include <glm/geometric.hpp>
 
 #include "masks/tile_sampler.h"
+#include "tests/support/law_for_share.h"
 
 namespace macula {
 namespace {
@@ -70,7 +71,7 @@ double boundary(int level) {
 
 TEST(TileSamplerLevels, MeetTheNeedWithinHalfAStepAndExceedItByTheHysteresisAtMost) {
     const Display display = load_display("desktop").value();
-    const AcuityLaw law = solve_law(display, kLeftEye, 0.27);
+    const AcuityLaw law = law_for_share(display, kLeftEye, 0.27);
     constexpr double kRounding = 1e-3;
     for (const bool change_phase : {false, true}) {
         TileSampler sampler(display, kLeftEye, law, shared_tables(), {.hysteresis = 0.8F});
@@ -88,7 +89,7 @@ TEST(TileSamplerLevels, MeetTheNeedWithinHalfAStepAndExceedItByTheHysteresisAtMo
 
 TEST(TileSamplerLevels, WithHysteresisAreNeverSparserThanWithout) {
     const Display display = load_display("desktop").value();
-    const AcuityLaw law = solve_law(display, kRightEye, 0.41);
+    const AcuityLaw law = law_for_share(display, kRightEye, 0.41);
     TileSampler held(display, kRightEye, law, shared_tables(), {.hysteresis = 0.8F});
     TileSampler free(display, kRightEye, law, shared_tables(), {.hysteresis = 1.0F});
     for (const PlanRequest& request : gaze_path(2, 40, true)) {
@@ -101,7 +102,7 @@ TEST(TileSamplerLevels, WithHysteresisAreNeverSparserThanWithout) {
 
 TEST(TileSamplerLevels, HoldStillWhileAFixatingGazeTrembles) {
     const Display display = load_display("desktop").value();
-    const AcuityLaw law = solve_law(display, kLeftEye, 0.27);
+    const AcuityLaw law = law_for_share(display, kLeftEye, 0.27);
     const auto changes = [&](float hysteresis) {
         TileSampler sampler(display, kLeftEye, law, shared_tables(), {.hysteresis = hysteresis});
         std::mt19937 random(3);
@@ -138,7 +139,7 @@ TEST(TileSamplerLevels, AreNested) {
     const PlanRequest request{glm::normalize(glm::vec3(0.3F, -0.4F, -1.0F)), {5, 38}};
     std::vector<std::uint8_t> sparser(static_cast<std::size_t>(display.eye_width_px) * display.eye_height_px);
     for (const double share : {0.18, 0.27, 0.41, 0.54}) {
-        TileSampler sampler(display, kLeftEye, solve_law(display, kLeftEye, share), shared_tables());
+        TileSampler sampler(display, kLeftEye, law_for_share(display, kLeftEye, share), shared_tables());
         std::vector<std::uint8_t> pixels = pixels_of(plan_once(sampler, request));
         EXPECT_GT(std::count(pixels.begin(), pixels.end(), 1), std::count(sparser.begin(), sparser.end(), 1));
         EXPECT_TRUE(std::equal(pixels.begin(), pixels.end(), sparser.begin(), std::greater_equal<>())) << share;
@@ -163,7 +164,7 @@ TEST(TileSamplerLevels, WithoutALawEveryVisiblePixelIsTracedOnceAndNothingElse) 
 
 TEST(TileSamplerLevels, StayWithinABudget) {
     const Display display = load_display("desktop").value();
-    const AcuityLaw law = solve_law(display, kLeftEye, 0.54);
+    const AcuityLaw law = law_for_share(display, kLeftEye, 0.54);
     const auto pixels = static_cast<double>(display.eye_width_px) * display.eye_height_px;
     for (const double share : {0.5, 0.3, 0.1, 0.03}) {
         const auto most = static_cast<std::uint32_t>(share * pixels);
@@ -178,7 +179,7 @@ TEST(TileSamplerLevels, StayWithinABudget) {
 
 TEST(TileSamplerLevels, UnderABudgetThatCannotBeMetAreTheSparsest) {
     const Display display = load_display("desktop").value();
-    TileSampler sampler(display, kLeftEye, solve_law(display, kLeftEye, 0.54), shared_tables(), {.max_samples = 1});
+    TileSampler sampler(display, kLeftEye, law_for_share(display, kLeftEye, 0.54), shared_tables(), {.max_samples = 1});
     const SamplePlan plan = plan_once(sampler);
     int denser = 0;
     for_each_inner_tile(plan, [&](int, int level) { denser += level > 1 ? 1 : 0; });
@@ -188,7 +189,7 @@ TEST(TileSamplerLevels, UnderABudgetThatCannotBeMetAreTheSparsest) {
 TEST(TileSamplerLevels, GuardSamplesAreFew) {
     const Display display = load_display("vive").value();
     for (const double share : {0.54, 0.27, 0.116}) {
-        TileSampler sampler(display, kLeftEye, solve_law(display, kLeftEye, share), shared_tables());
+        TileSampler sampler(display, kLeftEye, law_for_share(display, kLeftEye, share), shared_tables());
         const SamplePlan plan = plan_once(sampler, {{0.0F, 0.0F, -1.0F}, {21, 40}});
         const double outside = static_cast<double>(plan.trace_order.size()) - plan.traced_in_window;
         EXPECT_GT(outside, 100.0);
@@ -235,9 +236,9 @@ TEST(TileSamplerLevels, PacketsOfTheTraceOrderAreCoherent) {
     };
     // Another implementation has 1.11 / 1.20 / 1.51 tiles and .80 / 1.06 / 1.60 degrees over the whole buffer; the
     // same number of sites in scan-line order 2.7 / 4.0 / 5.6 tiles and 3.3 / 6.4 / 12 degrees.
-    expect_spread(solve_law(display, kLeftEye, 0.54), 1.11, 0.80);
-    expect_spread(solve_law(display, kLeftEye, 0.27), 1.20, 1.06);
-    expect_spread(solve_law(display, kLeftEye, 0.116), 1.51, 1.60);
+    expect_spread(law_for_share(display, kLeftEye, 0.54), 1.11, 0.80);
+    expect_spread(law_for_share(display, kLeftEye, 0.27), 1.20, 1.06);
+    expect_spread(law_for_share(display, kLeftEye, 0.116), 1.51, 1.60);
     // Blocks of 4x4 pixels have a diagonal of .43 degrees at the centre, where they are largest. Without the outline
     // none is broken up but at the window's right edge.
     display.eyes[kLeftEye].visible_outline.clear();

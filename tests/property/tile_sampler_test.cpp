@@ -10,6 +10,8 @@
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>
 
+#include "tests/support/law_for_share.h"
+
 namespace macula {
 namespace {
 
@@ -58,9 +60,9 @@ public:
     std::optional<AcuityLaw> law() {
         if (whole(0, 9) == 0) return std::nullopt;
         AcuityLaw law;
-        law.e2_deg = std::exp(real(-1.0F, 3.0F));
+        law.stretch = std::exp(real(-1.0F, 3.0F)) / 2.3;
         // Small displays have few pixels per degree: without this all would be traced.
-        law.alpha_deg = 0.106 * real(1.0F, 40.0F);
+        law.model = GeislerPerry{.alpha_deg = 0.106 * real(1.0F, 40.0F)};
         return law;
     }
 
@@ -261,7 +263,7 @@ TEST(TileSampler, KeepsItsContractOnTheBuiltInDisplays) {
     const auto tables = shared_tables();
     for (const char* name : {"desktop", "vive"}) {
         const Display display = load_display(name).value();
-        TileSampler sampler(display, kRightEye, solve_law(display, kRightEye, 0.27), tables);
+        TileSampler sampler(display, kRightEye, law_for_share(display, kRightEye, 0.27), tables);
         SamplePlan plan;
         sampler.plan(chance.request(), plan);
         const Planned planned(display, kRightEye, plan);

@@ -16,6 +16,7 @@
 #include "protocol/codec/depth_plane.h"
 #include "protocol/message/byte_map.h"
 #include "server/service/frame_maker.h"
+#include "tests/support/law_for_share.h"
 
 namespace macula {
 namespace {
@@ -176,7 +177,7 @@ Shown play(const std::shared_ptr<const Scene>& scene, const std::shared_ptr<cons
     parts.image_depth = way.image_depth;
     parts.tracer = tracer;
     for (const Eye eye : {kLeftEye, kRightEye}) {
-        parts.samplers[eye] = std::make_unique<TileSampler>(display, eye, solve_law(display, eye, 0.27), tables);
+        parts.samplers[eye] = std::make_unique<TileSampler>(display, eye, law_for_share(display, eye, 0.27), tables);
     }
     parts.reconstructor = make_cpu_reconstructor(tables);
     FrameMaker maker(display, std::move(parts));

@@ -14,6 +14,7 @@
 #include "masks/tile_tables.h"
 #include "protocol/codec/depth_plane.h"
 #include "server/render/reconstructor.h"
+#include "tests/support/law_for_share.h"
 
 namespace macula::test {
 
@@ -121,7 +122,8 @@ public:
         : display_(display),
           tables_(std::make_shared<const TileTables>(make_rank_tile())),
           sampler_(display, kLeftEye,
-                   share ? std::optional(solve_law(display, kLeftEye, *share)) : std::optional<AcuityLaw>(), tables_),
+                   share ? std::optional(law_for_share(display, kLeftEye, *share)) : std::optional<AcuityLaw>(),
+                   tables_),
           reconstructor_(make_cpu_reconstructor(tables_)) {
         color = ColorImage(2 * display.eye_width_px, display.eye_height_px);
         full_depth = InverseDepthImage(color.width_px, color.height_px);

@@ -47,11 +47,9 @@ Supplies make_supplies() {
                                      const std::string& name) -> Expected<std::unique_ptr<Sampler>> {
         const auto preset = parse_sampling(name);
         if (!preset) return tl::unexpected(preset.error());
-        std::optional<AcuityLaw> law;
-        if (!preset->full) law = solve_law(display, eye, preset->share);
-        return std::make_unique<TileSampler>(display, eye, law, tables);
+        return std::make_unique<TileSampler>(display, eye, tile_law(display, eye, *preset), tables);
     };
-    supplies.make_reconstructor = [tables] { return make_cpu_reconstructor(tables); };
+    supplies.make_reconstructor = [tables](const std::string&) { return make_cpu_reconstructor(tables); };
     supplies.make_color_encoder = [](int width_px, int height_px, double frame_rate_hz) {
         return make_video_encoder({"libx264", width_px, height_px, frame_rate_hz, 25'000'000, 1});
     };

@@ -111,14 +111,6 @@ TEST(Shot, OddSizesAreCoveredWhole) {
     EXPECT_EQ(shots[0].plan.traced_in_window, 37U * 21U);
 }
 
-TEST(ParseLaw, KeepsWhatIsLeftOut) {
-    const auto law = parse_law("law:e2=3.5,full=2");
-    ASSERT_TRUE(law);
-    EXPECT_EQ(law->e2_deg, 3.5);
-    EXPECT_EQ(law->full_acuity_deg, 2.0);
-    EXPECT_EQ(law->alpha_deg, AcuityLaw{}.alpha_deg);
-}
-
 void expect_option_error(const std::function<void(RenderOptions&)>& spoil, const std::string& named) {
     RenderOptions options = camera(60.0, "32x32");
     spoil(options);

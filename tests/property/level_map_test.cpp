@@ -1,0 +1,61 @@
+#include "masks/level_map.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include <gtest/gtest.h>
+#include <glm/geometric.hpp>
+
+namespace macula {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+/// The same quantisation, written the slow way.
+int nearest_level(double need) {
+    int nearest = 1;
+    for (int level = 2; level <= kFullLevel; ++level) {
+        const auto distance = [need](int l) { return std::abs(std::log(kLevelCounts[l] / 256.0 / need)); };
+        if (distance(level) < distance(nearest)) nearest = level;
+    }
+    return nearest;
+}
+
+TEST(LevelMap, IsTheNearestLevelInLogOfTheNeedAtTheTilesCentre) {
+    std::mt19937 random(20261122);
+    std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+    const Display vive = load_display("vive").value();
+    const Tangents& edge = vive.eyes[kLeftEye].tangents;
+    for (int round = 0; round < 20; ++round) {
+        AcuityLaw law;
+        law.stretch = (5.0 + 4.0 * uniform(random)) / 2.3;
+        law.exponent = 1.5 + 0.5 * uniform(random);
+        law.full_acuity_deg = round % 2 == 0 ? 0.0 : 1.5;
+        const glm::dvec3 gaze =
+            glm::normalize(glm::dvec3(uniform(random), uniform(random), round < 15 ? -1.0 : uniform(random)));
+        const glm::ivec2 phase(static_cast<int>(random() % 64), static_cast<int>(random() % 64));
+        const TileGrid grid({1512, 1680}, phase);
+        std::vector<std::uint8_t> levels(static_cast<std::size_t>(grid.tiles.x) * grid.tiles.y);
+        LevelMap(vive, kLeftEye, law).update(grid, glm::vec3(gaze), levels.data(), grid.tiles.x);
+        for (int y = 0; y < grid.tiles.y; ++y) {
+            for (int x = 0; x < grid.tiles.x; ++x) {
+                const glm::dvec2 centre = glm::dvec2(grid.origin_px) + 16.0 * glm::dvec2(x, y) + 8.0;
+                const glm::dvec2 tangent(edge.left + centre.x / 1512 * (double{edge.right} - edge.left),
+                                         edge.top - centre.y / 1680 * (double{edge.top} - edge.bottom));
+                const glm::dvec3 direction = glm::normalize(glm::dvec3(tangent, -1.0));
+                const double angle = std::acos(glm::clamp(glm::dot(direction, gaze), -1.0, 1.0)) / kDegree;
+                const double need = needed_share(law, angle, pixels_per_degree(vive, kLeftEye, tangent.x, tangent.y));
+                const int level = levels[y * grid.tiles.x + x];
+                // On a boundary single precision may choose either side.
+                EXPECT_GE(level, nearest_level(need * 0.999)) << "need " << need;
+                EXPECT_LE(level, nearest_level(need * 1.001)) << "need " << need;
+            }
+        }
+        if (HasFailure()) return;
+    }
+}
+
+}  // namespace
+}  // namespace macula
