@@ -1,23 +1,11 @@
 #include "protocol/gl/buffer.h"
 
 #include <algorithm>
-#include <string>
 #include <utility>
 
 #include "protocol/gl/functions.h"
 
 namespace macula {
-
-namespace {
-
-Expected<void> check_errors(const GlFunctions& gl) {
-    const GLenum error = gl.GetError();
-    if (error == GL_NO_ERROR) return {};
-    if (error == GL_OUT_OF_MEMORY) return fail(ErrorCode::graphics, "GL is out of memory");
-    return fail(ErrorCode::graphics, "GL failed with error " + std::to_string(error));
-}
-
-}  // namespace
 
 GlBuffer::GlBuffer(GlBuffer&& other) noexcept
     : context_(other.context_),
@@ -53,13 +41,17 @@ void GlBuffer::bind(unsigned index) const {
     context_->gl().BindBufferBase(GL_SHADER_STORAGE_BUFFER, index, id_);
 }
 
+void GlBuffer::bind_as_indices() const {
+    context_->gl().BindBuffer(GL_ELEMENT_ARRAY_BUFFER, id_);
+}
+
 Expected<const void*> GlBuffer::map(std::size_t size_bytes) const {
     const GlFunctions& gl = context_->gl();
     gl.MemoryBarrier(GL_CLIENT_MAPPED_BUFFER_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
     gl.BindBuffer(GL_SHADER_STORAGE_BUFFER, id_);
     const void* data =
         gl.MapBufferRange(GL_SHADER_STORAGE_BUFFER, 0, static_cast<GLsizeiptr>(size_bytes), GL_MAP_READ_BIT);
-    const auto checked = check_errors(gl);
+    const auto checked = check_gl_errors(gl);
     if (!checked) return tl::unexpected(checked.error());
     if (data == nullptr) return fail(ErrorCode::graphics, "GL does not map a buffer");
     return data;
@@ -69,7 +61,7 @@ Expected<void> GlBuffer::unmap() const {
     const GlFunctions& gl = context_->gl();
     if (gl.UnmapBuffer(GL_SHADER_STORAGE_BUFFER) == GL_FALSE)
         return fail(ErrorCode::graphics, "the content of a GL buffer was lost");
-    return check_errors(gl);
+    return check_gl_errors(gl);
 }
 
 }  // namespace macula

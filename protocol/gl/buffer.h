@@ -8,7 +8,7 @@
 
 namespace macula {
 
-/// Bytes in GL memory that a compute program reads and writes. Movable; the context must outlive it and, but
+/// Bytes in GL memory that programs read and write. Movable; the context must outlive it and, but
 /// for construction and destruction, be current on the calling thread. GL keeps errors (out of memory) until
 /// they are asked for: read_bytes() reports them.
 class GlBuffer {
@@ -32,6 +32,8 @@ public:
     }
     /// Makes this the storage buffer of `layout(std430, binding = index)`.
     void bind(unsigned index) const;
+    /// Makes this the index buffer of the vertex array that is bound.
+    void bind_as_indices() const;
 
 private:
     [[nodiscard]] Expected<const void*> map(std::size_t size_bytes) const;
@@ -57,6 +59,8 @@ public:
     void resize(std::size_t count) { resize_and_write(nullptr, count); }
     [[nodiscard]] std::size_t size() const { return count_; }
     void bind(unsigned index) const { bytes_.bind(index); }
+    /// RenderProgram::draw does.
+    void bind_as_indices() const { bytes_.bind_as_indices(); }
 
     /// Calls `use(std::span<const T>)` on the content, after all programs dispatched before. Errors: `graphics`.
     template <class Use>

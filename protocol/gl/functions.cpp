@@ -14,4 +14,11 @@ Expected<GlFunctions> load_gl_functions(GlProcedure (*find)(const char* name)) {
     return gl;
 }
 
+Expected<void> check_gl_errors(const GlFunctions& gl) {
+    const GLenum error = gl.GetError();
+    if (error == GL_NO_ERROR) return {};
+    if (error == GL_OUT_OF_MEMORY) return fail(ErrorCode::graphics, "GL is out of memory");
+    return fail(ErrorCode::graphics, "GL failed with error " + std::to_string(error));
+}
+
 }  // namespace macula
