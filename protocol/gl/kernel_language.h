@@ -25,6 +25,9 @@
 #define KERNEL_IN(type) const type&
 #define KERNEL_OUT(type) type&
 #define KERNEL_INOUT(type) type&
+/// Before a float's declaration: its value is computed as written, without fusing products and sums. In C++ that is an
+/// option of the source file (-ffp-contract=off).
+#define KERNEL_PRECISE
 
 namespace macula::kernels {
 

@@ -5,3 +5,4 @@
 #define KERNEL_IN(type) in type
 #define KERNEL_OUT(type) out type
 #define KERNEL_INOUT(type) inout type
+#define KERNEL_PRECISE precise

@@ -3,6 +3,7 @@
 #include <utility>
 #include <vector>
 
+#include "kernel_text/blend.h"
 #include "kernel_text/reconstruct.h"
 #include "kernel_text/reconstruct_buffers.h"
 #include "kernel_text/reconstruct_main.h"
@@ -104,8 +105,8 @@ Expected<std::unique_ptr<Reconstructor>> make_gl_reconstructor(std::unique_ptr<G
     GlContext& used = *context;
     const auto current = CurrentContext::enter(used);
     if (!current) return tl::unexpected(current.error());
-    auto program =
-        ComputeProgram::build(used, std::array{reconstruct_buffers_text, reconstruct_text, reconstruct_main_text});
+    auto program = ComputeProgram::build(
+        used, std::array{reconstruct_buffers_text, blend_text, reconstruct_text, reconstruct_main_text});
     if (!program) return tl::unexpected(program.error());
     return std::make_unique<GlReconstructor>(std::move(context), std::move(*program), tables);
 }
