@@ -11,7 +11,7 @@ constexpr int kMostSide_px = 16384;  ///< triangulate() takes coordinates to 163
 constexpr std::uint32_t kNone = ~std::uint32_t{0};
 
 std::string place(const SamplePosition& site) {
-    return "(" + std::to_string(site.x_px) + ", " + std::to_string(site.y_px) + ")";
+    return std::to_string(site.x_px) + ", " + std::to_string(site.y_px);
 }
 
 /// A number for a side of a triangle that is irregular in its ends, and negative (modulo 2^64) in the other direction.
