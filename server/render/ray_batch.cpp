@@ -31,7 +31,8 @@ LaneMask first_lanes(std::size_t count) {
     return (1U << count) - 1U;
 }
 
-/// Rays through the pixels of up to 16 addresses. Lanes without an address get rays too, which are not traced.
+/// Rays through the places of up to 16 addresses: `sample_px` in its pixel, or where the plan says, moved by what
+/// sample_px is off the centre. Lanes without an address get rays too, which are not traced.
 void aim(const Camera& camera, const SamplePlan& plan, const vec2& sample_px, std::span<const std::uint32_t> addresses,
          RTCRayHit16& rays, HitPacket& hits) {
     Lanes<float> x{};
@@ -40,6 +41,13 @@ void aim(const Camera& camera, const SamplePlan& plan, const vec2& sample_px, st
         const SamplePosition p = plan.position[addresses[static_cast<std::size_t>(i)]];
         x[i] = static_cast<float>(p.x_px) + sample_px.x;
         y[i] = static_cast<float>(p.y_px) + sample_px.y;
+    }
+    if (!plan.place.empty()) {
+        for (int i = 0; i < static_cast<int>(addresses.size()); ++i) {
+            const PlaceInPixel place = plan.place[addresses[static_cast<std::size_t>(i)]];
+            x[i] += static_cast<float>(place.x) / 256.0F - 0.5F;
+            y[i] += static_cast<float>(place.y) / 256.0F - 0.5F;
+        }
     }
     MACULA_LANE_LOOP
     for (int i = 0; i < kLaneCount; ++i) {

@@ -37,8 +37,9 @@ struct TraceTask {
     const EyeView* view = nullptr;
     const SamplePlan* plan = nullptr;
     Samples* samples = nullptr;
-    glm::vec2 sample_px = glm::vec2(0.5F);  ///< where in its pixel a sample lies
-    float footprint_scale = 1.0F;           ///< of a sample, in distances of the plan's samples; for several per pixel
+    /// Where in its pixel a sample lies; one that the plan gives a place of its own lies by sample_px - .5 beside it.
+    glm::vec2 sample_px = glm::vec2(0.5F);
+    float footprint_scale = 1.0F;  ///< of a sample, in distances of the plan's samples; for several per pixel
 };
 
 /// Rays that were traced, by what they were for.

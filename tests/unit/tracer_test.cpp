@@ -115,6 +115,56 @@ TEST(Tracer, GuardSamplesLieOutsideTheImage) {
     for (const float inverse : samples.inverse_depth_per_m) EXPECT_FLOAT_EQ(inverse, 0.5F);
 }
 
+TEST(Tracer, RaysGoThroughThePlacesThatThePlanSays) {
+    // A plane whose inverse depth tells both tangents apart: along x in one scene, along y in the other.
+    constexpr int kSize = 16;
+    const EyeView view = test::square_view(kSize);
+    SamplePlan plan = test::full_plan(kSize, kSize);
+    for (std::size_t i = 0; i < plan.position.size(); ++i) {
+        plan.place.push_back({static_cast<std::uint8_t>(i * 37 % 256), static_cast<std::uint8_t>(i * 101 % 256)});
+        plan.position[i].x_px = static_cast<std::int16_t>(plan.position[i].x_px - 3);  // some lie outside
+    }
+    for (const int axis : {0, 1}) {
+        // Points p with p.z = -2 + p[axis] / 2: 1 / depth = .5 + tangent / 4.
+        Scene scene;
+        vec3 slope(0.0F, 0.0F, 0.5F);
+        slope[axis] = 1.0F;
+        vec3 level(0.0F);
+        level[1 - axis] = 1.0F;
+        const vec3 corner = vec3(0.0F, 0.0F, -2.0F) - 12.0F * slope - 30.0F * level;
+        Material material = test::unlit();
+        material.double_sided = true;
+        test::add(scene, make_quad(corner, 15.0F * slope, 60.0F * level), material);
+        const auto tracer = test::tracer_of(scene);
+        for (const glm::vec2 sample_px : {glm::vec2(0.5F), glm::vec2(0.25F, 0.875F)}) {
+            Samples samples;
+            TraceTask task{&view, &plan, &samples};
+            task.sample_px = sample_px;
+            tracer->trace({&task, 1});
+            for (std::size_t i = 0; i < plan.position.size(); ++i) {
+                const SamplePosition p = plan.position[i];
+                const double at_px = axis == 0 ? p.x_px + plan.place[i].x / 256.0 : p.y_px + plan.place[i].y / 256.0;
+                const double edge = (at_px + double{sample_px[axis]} - 0.5) / kSize * 2.0 - 1.0;
+                const double tangent = axis == 0 ? edge : -edge;
+                ASSERT_NEAR(samples.inverse_depth_per_m[i], 0.5 + 0.25 * tangent, 2e-6) << i << ", axis " << axis;
+            }
+        }
+    }
+}
+
+TEST(Tracer, APlaceAtTheCentreIsTheSameAsNone) {
+    const auto tracer = test::tracer_of(still_life());
+    const EyeView view = test::square_view(37);
+    const test::Traced expected = test::trace(still_life(), view);
+    SamplePlan plan = test::full_plan(37, 37);
+    plan.place.resize(plan.position.size());
+    Samples samples;
+    const TraceTask task{&view, &plan, &samples};
+    tracer->trace({&task, 1});
+    EXPECT_EQ(samples.color, expected.samples.color);
+    EXPECT_EQ(samples.inverse_depth_per_m, expected.samples.inverse_depth_per_m);
+}
+
 TEST(Tracer, SeveralTasksAndSeveralThreadsGiveTheSame) {
     const auto tracer = test::tracer_of(still_life());
     const PerEye<EyeView> views{test::square_view(101, {-0.03F, 0.0F, 0.0F}),
