@@ -73,6 +73,7 @@ TileSampler::TileSampler(const Display& display, Eye eye, std::optional<AcuityLa
       options_(options),
       order_(tables_->rank_tile()),
       reach_(*tables_),
+      hidden_(std::make_shared<const std::vector<std::uint8_t>>(hidden_pixels(display, eye))),
       visible_(display, eye),
       most_tiles_(TileGrid({display.eye_width_px, display.eye_height_px}, glm::ivec2(kTileEdge_px - 1)).tiles),
       levels_(static_cast<std::size_t>(most_tiles_.x) * most_tiles_.y) {
@@ -90,6 +91,7 @@ void TileSampler::plan(const PlanRequest& request, SamplePlan& plan) {
     const TileGrid grid({display_.eye_width_px, display_.eye_height_px}, request.phase_px);
     plan.width_px = display_.eye_width_px;
     plan.height_px = display_.eye_height_px;
+    plan.hidden = hidden_;
     plan.phase_px = request.phase_px;
     plan.origin_px = grid.origin_px - kTileEdge_px;
     plan.tiles_x = grid.tiles.x + 2;
@@ -111,6 +113,12 @@ void TileSampler::plan(const PlanRequest& request, SamplePlan& plan) {
     plan.offset[tiles] = total;
     write_positions(plan);
     write_trace_order(plan);
+
+    // What the fields of another kind of sampler may hold.
+    plan.place.clear();
+    plan.spacing.clear();
+    plan.mesh.reset();
+    plan.grids = {};
 }
 
 void TileSampler::choose_levels(const TileGrid& grid, const glm::vec3& gaze_eye) {

@@ -20,7 +20,8 @@ struct TileSamplerOptions {
     /// A tile drops to a sparser level only when the need falls below this part of the level boundary; 1: at once.
     float hysteresis = 0.8F;
     /// Most rays inside the window, 0 for any number; the few guard samples come on top. A plan that would exceed
-    /// it follows a law that is stretched less, down to the sparsest level everywhere. No bound on a sampler without law.
+    /// it follows a law that is stretched less, down to the sparsest level everywhere. No bound on a sampler without
+    /// law.
     std::uint32_t max_samples = 0;
 };
 
@@ -59,6 +60,7 @@ private:
     TileSamplerOptions options_;
     SampleOrder order_;
     SampleReach reach_;
+    std::shared_ptr<const std::vector<std::uint8_t>> hidden_;  ///< of every plan
     VisibleArea visible_;
     std::optional<LevelMap> level_map_;
     glm::ivec2 most_tiles_;                 ///< of any phase, without the guard ring

@@ -239,11 +239,19 @@ TEST_P(RandomPlan, KeepsItsContract) {
     const Eye eye = chance.whole(0, 1) == 0 ? kLeftEye : kRightEye;
     TileSampler sampler(display, eye, chance.law(), tables);
     SamplePlan plan;
+    // What another sampler may have left.
+    plan.place.resize(5);
+    plan.spacing.assign(5, 3.0F);
+    plan.grids.log_polar.count = {3, 4};
     for (int frame = 0; frame < 3; ++frame) {
         const PlanRequest request = chance.request();
         sampler.plan(request, plan);
         const Planned planned(display, eye, plan);
         EXPECT_EQ(plan.phase_px, request.phase_px);
+        ASSERT_NE(plan.hidden, nullptr);
+        EXPECT_EQ(*plan.hidden, planned.hidden);
+        EXPECT_FALSE(plan.has_mesh() || plan.has_grids());
+        EXPECT_TRUE(plan.place.empty() && plan.spacing.empty());
         expect_grid_covers_the_window(planned);
         if (HasFatalFailure()) return;
         expect_addresses_hold_the_samples_of_their_tile(planned, tables->rank_tile());
