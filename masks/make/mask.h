@@ -26,11 +26,15 @@ struct Mask {
 using MaskProgress = std::function<void(const std::string& stage, double share)>;
 
 /// Draws the mask of a recipe: 2W x 2H pixels for an eye of W x H, so that it covers the window for any gaze in it, and
-/// with at least the sparsest tile level's density (1.6 %) everywhere. A full mask is W x H, for it need not move. Its
-/// four corners are always sampled. The share within the window while the gaze is on the axis is the preset's within
-/// .2 points, or for a preset without share what the law gives.
-/// Errors: `option` for a preset that no placement can reach.
+/// with at least the sparsest tile level's density (1.6 %) everywhere, and a closed border. A full mask is W x H, for
+/// it need not move. The share within the window while the gaze is on the axis is the preset's within .2 points, or for
+/// a preset without share what the law gives. Errors: `option` for a preset that no placement can reach.
 Expected<Mask> make_mask(const Recipe& recipe, const MaskProgress& progress = {});
+
+/// Samples the mask's corners, and so many pixels along its border that no 8 follow each other without a sample. The
+/// triangles at a border whose sites lie far apart would be slivers as long as the gaps, longer than a pixel may reach
+/// (kMeshReach_px).
+void close_border(Mask& mask);
 
 /// Share 0..1 of the window's pixels that are sampled while the gaze is at `gaze_px` of the window.
 double sampled_share(const Mask& mask, glm::ivec2 window_px, glm::ivec2 gaze_px);

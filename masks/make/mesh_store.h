@@ -11,8 +11,8 @@
 
 namespace macula {
 
-/// The mask's sites, ordered so that neighbours in the list are neighbours in the plane (Morton order of 16x16 blocks,
-/// rows inside), triangulated. Corners of the mask that are not sampled are added.
+/// The mask's sites and those that close its border (close_border()), ordered so that neighbours in the list are
+/// neighbours in the plane (Morton order of 16x16 blocks, rows inside), triangulated.
 SampleMesh triangulate_mask(const Mask& mask, const MaskProgress& progress = {});
 
 /// $XDG_CACHE_HOME/macula/meshes or ~/.cache/macula/meshes. Errors: `option` where neither variable is set.

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "masks/display.h"
+
+namespace macula::test {
+
+/// A Vive's optics with few pixels.
+inline Display small_display(int width_px = 188, int height_px = 208) {
+    Display display = load_display("vive").value();
+    display.eye_width_px = width_px;
+    display.eye_height_px = height_px;
+    return display;
+}
+
+}  // namespace macula::test
