@@ -8,26 +8,32 @@
 
 namespace macula {
 
-/// How far each pixel of a window is from the nearest that is not seen: one that the lens hides, or any beyond the
-/// window's edge. Distances are the larger of those in x and in y.
+/// How far each pixel is from the edge of what is seen: of the window without the pixels that the lens hides. Distances
+/// are the larger of those in x and in y.
 class EdgeDistance {
 public:
-    /// `hidden`: 1 for each hidden pixel, row-major.
+    /// Pixels may be asked for that lie at most so far beyond the window.
+    static constexpr int kMargin_px = 128;
+
+    /// `hidden`: 1 for each hidden pixel of the window, row-major.
     EdgeDistance(glm::ivec2 size_px, const std::vector<std::uint8_t>& hidden);
 
-    /// 0 for a pixel that is not seen, wherever it lies; at most 255.
-    [[nodiscard]] int at(glm::ivec2 pixel) const {
-        if (pixel.x < 0 || pixel.y < 0 || pixel.x >= size_px_.x || pixel.y >= size_px_.y) return 0;
-        return row(pixel.y)[pixel.x];
+    /// Of a pixel that is seen, the distance to the nearest that is not, 1 or more; of another, 1 less the distance to
+    /// the nearest that is, 0 or less. Within -127..127: what is farther has these values.
+    [[nodiscard]] int at(glm::ivec2 pixel) const { return signed_px_[index(pixel)]; }
+    /// The same for at({0, y}) and on, rows `stride()` apart.
+    [[nodiscard]] const std::int8_t* row(int y_px) const { return signed_px_.data() + index({0, y_px}); }
+    [[nodiscard]] int stride() const { return stride_; }
+    /// Of a pixel among all that may be asked for, `size()` in number.
+    [[nodiscard]] std::size_t index(glm::ivec2 pixel) const {
+        return static_cast<std::size_t>(pixel.y + kMargin_px) * static_cast<std::size_t>(stride_) +
+               static_cast<std::size_t>(pixel.x + kMargin_px);
     }
-    /// Distances of a row of the window.
-    [[nodiscard]] const std::uint8_t* row(int y_px) const {
-        return distance_px_.data() + static_cast<std::ptrdiff_t>(y_px) * size_px_.x;
-    }
+    [[nodiscard]] std::size_t size() const { return signed_px_.size(); }
 
 private:
-    glm::ivec2 size_px_;
-    std::vector<std::uint8_t> distance_px_;
+    int stride_;
+    std::vector<std::int8_t> signed_px_;  ///< window and margin around it, row-major
 };
 
 }  // namespace macula

@@ -25,6 +25,8 @@ constexpr std::size_t kPacket = 16;
 /// Pixel (8, 8) of a block is at most this far from any other.
 constexpr int kFromMiddle_px = kBlock / 2;
 
+static_assert(kMeshReach_px <= EdgeDistance::kMargin_px);
+
 std::string size_text(ivec2 size_px) {
     return std::to_string(size_px.x) + "x" + std::to_string(size_px.y);
 }
@@ -55,8 +57,7 @@ MeshSampler::MeshSampler(const Display& display, Eye eye, std::shared_ptr<const 
       step_px_(step_px),
       hidden_(std::make_shared<const std::vector<std::uint8_t>>(hidden_pixels(display, eye))),
       edge_distance_(size_px_, *hidden_),
-      marked_(static_cast<std::size_t>(size_px_.x + 2 * kMeshReach_px) *
-              static_cast<std::size_t>(size_px_.y + 2 * kMeshReach_px)) {
+      marked_(edge_distance_.size()) {
     if (auto covers = check_mask_covers(table_->mesh(), display); !covers)
         throw std::invalid_argument(covers.error().message);
     if (step_px < 1) throw std::invalid_argument("mesh sampler: step_px must be 1 or more");
@@ -128,7 +129,7 @@ ivec2 MeshSampler::origin_for(const glm::vec3& gaze_eye) const {
     return origin_px;
 }
 
-/// Sorts the blocks that touch the window by what is seen of them, and finds what is needed of the unseen.
+/// Lists the blocks that are seen, by how their sites fill packets, and finds what is needed of the unseen.
 void MeshSampler::find_blocks(ivec2 origin_px) {
     packet_blocks_.clear();
     other_blocks_.clear();
@@ -140,13 +141,14 @@ void MeshSampler::find_blocks(ivec2 origin_px) {
         const ivec2 block = first + step;
         if (block.x > last.x || block.y > last.y) continue;
         const int middle_px = edge_distance_.at(block * kBlock + kBlock / 2 - origin_px);
+        if (middle_px <= -kFromMiddle_px) continue;  // no pixel of it is visible
         const bool seen_whole = middle_px > kFromMiddle_px;
         const bool packets = seen_whole && blocks.sites(block) % kPacket == 0;
         (packets ? packet_blocks_ : other_blocks_).push_back({block, seen_whole});
         const int reach_px = blocks.reach_px(block);
         if (middle_px - kFromMiddle_px <= reach_px) find_needed(block, reach_px, origin_px);
     }
-    for (const ivec2& site : needed_px_) marked_[mark(site)] = 0;
+    for (const ivec2& site : needed_px_) marked_[edge_distance_.index(site)] = 0;
 }
 
 /// Adds the sites that are not visible and that a visible pixel of the block interpolates.
@@ -156,12 +158,16 @@ void MeshSampler::find_needed(ivec2 block, int reach_px, ivec2 origin_px) {
     const std::span<const MeshPixel> pixels = table_->pixels();
     const auto mask_width = static_cast<std::size_t>(table_->mesh().width_px);
     for (int y = begin.y; y < end.y; ++y) {
-        const std::uint8_t* distance_px = edge_distance_.row(y);
+        const std::int8_t* distance_px = edge_distance_.row(y);
         const MeshPixel* entries =
             &pixels[static_cast<std::size_t>(y + origin_px.y) * mask_width + static_cast<std::size_t>(origin_px.x)];
+        const auto seen = [distance_px, stride = edge_distance_.stride()](int x, int dx, int dy) {
+            return distance_px[x + dx + dy * stride] > 0;
+        };
         for (int x = begin.x; x < end.x; ++x) {
-            if (distance_px[x] == 0 || distance_px[x] > reach_px) continue;
+            if (distance_px[x] <= 0 || distance_px[x] > reach_px) continue;
             const MeshPixel& p = entries[x];
+            if (seen(x, p.ax, p.ay) && seen(x, p.bx, p.by) && seen(x, p.cx, p.cy)) continue;
             need({x + p.ax, y + p.ay});
             need({x + p.bx, y + p.by});
             need({x + p.cx, y + p.cy});
@@ -171,16 +177,10 @@ void MeshSampler::find_needed(ivec2 block, int reach_px, ivec2 origin_px) {
 
 void MeshSampler::need(ivec2 site_px) {
     if (edge_distance_.at(site_px) > 0) return;
-    std::uint8_t& marked = marked_[mark(site_px)];
+    std::uint8_t& marked = marked_[edge_distance_.index(site_px)];
     if (marked != 0) return;
     marked = 1;
     needed_px_.push_back(site_px);
-}
-
-std::size_t MeshSampler::mark(ivec2 site_px) const {
-    return static_cast<std::size_t>(site_px.y + kMeshReach_px) *
-               static_cast<std::size_t>(size_px_.x + 2 * kMeshReach_px) +
-           static_cast<std::size_t>(site_px.x + kMeshReach_px);
 }
 
 /// Writes the block's visible sites from address `first` on; returns the address after the last.
@@ -193,7 +193,7 @@ std::size_t MeshSampler::write_block(const Place& place, ivec2 origin_px, std::s
     if (place.seen_whole) return first + block.pixel.size();
     std::size_t visible = 0;
     for (std::size_t i = 0; i < block.pixel.size(); ++i) {
-        if (edge_distance_.at({position[i].x_px, position[i].y_px}) == 0) continue;
+        if (edge_distance_.at({position[i].x_px, position[i].y_px}) <= 0) continue;
         position[visible] = position[i];
         spacing_px[visible++] = spacing_px[i];
     }

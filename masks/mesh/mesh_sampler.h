@@ -53,7 +53,6 @@ private:
     [[nodiscard]] std::size_t write_block(const Place& place, glm::ivec2 origin_px, std::size_t first,
                                           SamplePlan& plan) const;
     void write_needed(glm::ivec2 origin_px, std::size_t first, SamplePlan& plan) const;
-    [[nodiscard]] std::size_t mark(glm::ivec2 site_px) const;
 
     Tangents tangents_;
     glm::ivec2 size_px_;  ///< of the window
@@ -66,7 +65,7 @@ private:
     std::vector<Place> packet_blocks_;  ///< whole packets of sites, all visible
     std::vector<Place> other_blocks_;
     std::vector<glm::ivec2> needed_px_;  ///< sites that are not visible but needed, in pixels of the window
-    std::vector<std::uint8_t> marked_;   ///< 1 for each of them, window and reach around it, row-major
+    std::vector<std::uint8_t> marked_;   ///< 1 for each of them, by EdgeDistance's index
 };
 
 }  // namespace macula

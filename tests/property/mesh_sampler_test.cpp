@@ -173,6 +173,33 @@ TEST_P(RandomMeshPlan, TracesWhatVisiblePixelsInterpolateAndNothingElse) {
 
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomMeshPlan, testing::Range(0U, 60U));
 
+TEST(EdgeDistance, IsThatToTheNearestPixelOfTheOtherKind) {
+    std::mt19937 random(kSeed);
+    for (const double share : {0.02, 0.5, 0.98}) {
+        const ivec2 size_px(37, 23);
+        std::vector<std::uint8_t> hidden(static_cast<std::size_t>(size_px.x * size_px.y));
+        for (std::uint8_t& h : hidden) h = std::bernoulli_distribution(share)(random) ? 1 : 0;
+        const EdgeDistance edge(size_px, hidden);
+        const auto is_seen = [&](ivec2 p) {
+            return p.x >= 0 && p.y >= 0 && p.x < size_px.x && p.y < size_px.y &&
+                   hidden[static_cast<std::size_t>(p.y * size_px.x + p.x)] == 0;
+        };
+        for (int y = -20; y < size_px.y + 20; ++y) {
+            for (int x = -20; x < size_px.x + 20; ++x) {
+                int nearest = 1000;
+                for (int v = -1; v <= size_px.y; ++v) {
+                    for (int u = -1; u <= size_px.x; ++u) {
+                        if (is_seen({u, v}) != is_seen({x, y}))
+                            nearest = std::min(nearest, std::max(std::abs(u - x), std::abs(v - y)));
+                    }
+                }
+                ASSERT_EQ(edge.at({x, y}), is_seen({x, y}) ? nearest : 1 - nearest) << x << ", " << y;
+            }
+        }
+        EXPECT_EQ(edge.at({-128, 5}), -127);
+    }
+}
+
 /// A display of 128x96 pixels whose tangents are pixels / 100 off pixel (40, 50), and a mask around it.
 struct Fixture {
     Display display{"fixture", 128, 96, 90.0F, {}};
