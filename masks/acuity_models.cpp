@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "masks/law.h"
 
@@ -11,7 +12,7 @@ namespace {
 
 // Frequencies between which castleCSF is searched. Its data end at 64 cpd; it falls below 1 a little beyond.
 constexpr double kCastleLeast_log2_cpd = -4.0;
-constexpr double kCastleMost_log2_cpd = 8.0;
+constexpr double kCastleMost_log2_cpd = 7.0;
 
 double cutoff_cpd(const GeislerPerry& law, double e_deg) {
     return law.e2_deg * std::log(1.0 / law.contrast) / (law.alpha_deg * (e_deg + law.e2_deg));
@@ -29,7 +30,7 @@ double cutoff_cpd(const RingMap& law, double e_deg) {
     return 0.5 / (law.foveal_deg + law.slope * std::max(e_deg - law.flat_deg, 0.0));
 }
 
-/// Ganglion cells of all kinds per square degree along a meridian: equation 4 and table 1.
+/// Ganglion cells of all kinds per square degree along a meridian.
 struct GanglionCells {
     double a;
     double r2_deg;
@@ -56,7 +57,7 @@ double cutoff_cpd(const Watson& law, double e_deg) {
     } else {
         cells = kMeridians.at(static_cast<std::size_t>(law.meridian)).density(e_deg);
     }
-    const double midget_share = 1.0 / 1.12 / (1.0 + e_deg / 41.03);  // equation 7
+    const double midget_share = 1.0 / 1.12 / (1.0 + e_deg / 41.03);
     return 0.5 * std::sqrt(2.0 / std::numbers::sqrt3 * 0.5 * midget_share * cells);
 }
 
@@ -72,16 +73,16 @@ public:
         log10_peak_cpd_ = std::log10(1.78119 * saturating(91.5718, 0.256682));
     }
 
-    /// Logarithm to base 10 of the sensitivity to a frequency.
-    [[nodiscard]] double log10_sensitivity(double cpd) const {
-        const double from_peak = std::log10(cpd) - log10_peak_cpd_;
+    /// Logarithm to base 10 of the sensitivity to a frequency, given with its logarithm.
+    [[nodiscard]] double log10_sensitivity(double cpd, double log10_cpd) const {
+        const double from_peak = log10_cpd - log10_peak_cpd_;
         double parabola = -from_peak * from_peak / kBandwidth;
         if (from_peak < 0.0) parabola = std::max(parabola, kLeast);
         // Rovamo, Luntinen and Nasanen (1993): integration over the area of the grating.
         const double relative = cpd / 0.702338;
         const double critical_deg2 = 157.103 / (1.0 + relative * relative);
         const double seen_deg2 = critical_deg2 / (1.0 + critical_deg2 / area_deg2_);
-        return log10_peak_ + parabola + std::log10(std::sqrt(seen_deg2) * cpd);
+        return log10_peak_ + parabola + 0.5 * std::log10(seen_deg2) + log10_cpd;
     }
 
 private:
@@ -95,9 +96,10 @@ private:
 
 double cutoff_cpd(const CastleCsf& law, double e_deg) {
     const CastleFovea fovea(law);
+    const double log10_of_2 = std::log10(2.0);
     const auto seen = [&](double log2_cpd) {
         const double cpd = std::exp2(log2_cpd);
-        return fovea.log10_sensitivity(cpd) >= (law.k1 + law.k2 * cpd) * e_deg;
+        return fovea.log10_sensitivity(cpd, log2_cpd * log10_of_2) >= (law.k1 + law.k2 * cpd) * e_deg;
     };
     // What is sought is the highest of the frequencies that are seen; they lie together.
     constexpr double kStep = 0.25;
@@ -119,25 +121,26 @@ double cutoff_frequency_cpd(const AcuityModel& model, double eccentricity_deg) {
 }
 
 const std::vector<NamedLaw>& named_laws() {
+    constexpr double kUnstated_deg = std::numeric_limits<double>::infinity();
     static const std::vector<NamedLaw> laws = {
         {"geisler-perry",
          "W. S. Geisler and J. S. Perry, A real-time foveated multiresolution system for low-bandwidth video "
          "communication, 1998",
-         90.0, GeislerPerry{}},
+         40.0, GeislerPerry{}},
         {"peli",
          "E. Peli, J. Yang and R. B. Goldstein, Image invariance with changes in size: the role of peripheral contrast "
          "thresholds, 1991",
-         50.0, Peli{}},
-        {"guenter", "B. Guenter, M. Finch, S. Drucker, D. Tan and J. Snyder, Foveated 3D graphics, 2012", 30.0,
+         23.0, Peli{}},
+        {"guenter", "B. Guenter, M. Finch, S. Drucker, D. Tan and J. Snyder, Foveated 3D graphics, 2012", kUnstated_deg,
          LinearMar{}},
         {"hvvr",
          "W. Hunt, M. Mara and A. Nankervis, Hierarchical visibility for virtual reality, 2018, with the ring map of "
          "the published program",
-         90.0, RingMap{}},
+         kUnstated_deg, RingMap{}},
         {"watson",
          "A. B. Watson, A formula for human retinal ganglion cell receptive field density as a function of visual "
          "field location, 2014",
-         90.0, Watson{}},
+         kUnstated_deg, Watson{}},
         {"castle-csf",
          "M. Ashraf, R. K. Mantiuk, A. Chapiro and S. Wuerger, castleCSF - a contrast sensitivity function of color, "
          "area, spatiotemporal frequency, luminance and eccentricity, 2024",

@@ -77,8 +77,10 @@ struct AcuityLaw {
 struct NamedLaw {
     std::string_view name;    ///< "geisler-perry", "peli", "guenter", "hvvr", "watson", "castle-csf"
     std::string_view source;  ///< authors, title, year
-    double domain_deg;        ///< largest eccentricity that the source speaks of; beyond, the formula is continued
-    AcuityModel model;        ///< with the published constants
+    /// Largest eccentricity of the data that the source rests on, infinite where it names none. Beyond, the formula is
+    /// continued.
+    double domain_deg;
+    AcuityModel model;  ///< with the published constants
 };
 
 /// All of them.

@@ -47,9 +47,14 @@ LevelMap::LevelMap(const Display& display, Eye eye, const AcuityLaw& law, double
         const double cutoff_cpd = cutoff_frequency_cpd(law.model, entry / kEntriesPerDegree);
         return px_per_deg * std::min(0.5 / cutoff_cpd, kMostSpacing_deg);
     };
+    double next = spacing_at(0);
     for (int i = 0; i < kEntries; ++i) {
-        spacing_at_[i] = static_cast<float>(spacing_at(i));
-        spacing_rise_[i] = static_cast<float>(spacing_at(i + 1) - spacing_at(i));
+        const double here = next;
+        next = spacing_at(i + 1);
+        // Where sight ends between two entries, it does so at the second.
+        const bool ends = next >= px_per_deg * kMostSpacing_deg;
+        spacing_at_[i] = static_cast<float>(here);
+        spacing_rise_[i] = ends ? 0.0F : static_cast<float>(next - here);
     }
     set_stretch(law.stretch);
     for (int level = 1; level < kFullLevel; ++level) {

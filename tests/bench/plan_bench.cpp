@@ -39,6 +39,25 @@ void plan_frames(benchmark::State& state, const std::string& display_name, const
     state.counters["share"] = share / frame;
 }
 
+/// The level map alone.
+void map_levels(benchmark::State& state, const std::string& sampling) {
+    const Display display = load_display("vive").value();
+    const SamplingPreset preset = parse_sampling(sampling).value();
+    LevelMap map(display, kLeftEye, *tile_law(display, kLeftEye, preset));
+    const TileGrid grid({display.eye_width_px, display.eye_height_px}, {5, 7});
+    std::vector<std::uint8_t> levels(static_cast<std::size_t>(grid.tiles.x) * grid.tiles.y);
+    for (auto _ : state) {
+        map.update(grid, {0.0F, 0.0F, -1.0F}, levels.data(), grid.tiles.x);
+        benchmark::DoNotOptimize(levels.data());
+    }
+}
+
+void solve(benchmark::State& state, const std::string& sampling) {
+    const Display display = load_display("vive").value();
+    const SamplingPreset preset = parse_sampling(sampling).value();
+    for (auto _ : state) benchmark::DoNotOptimize(tile_law(display, kLeftEye, preset));
+}
+
 void make_tables(benchmark::State& state) {
     const RankTile tile = make_rank_tile();
     for (auto _ : state) benchmark::DoNotOptimize(TileTables(tile));
@@ -58,6 +77,14 @@ int main(int argc, char** argv) {
                                          [=](benchmark::State& s) { macula::plan_frames(s, display, sampling); })
                 ->Unit(benchmark::kMillisecond);
         }
+    }
+    for (const char* sampling : {"27", "paper-18", "watson-27", "castle-csf-27"}) {
+        benchmark::RegisterBenchmark((std::string("levels/vive/") + sampling).c_str(), [=](benchmark::State& s) {
+            macula::map_levels(s, sampling);
+        })->Unit(benchmark::kMicrosecond);
+        benchmark::RegisterBenchmark((std::string("solve/vive/") + sampling).c_str(), [=](benchmark::State& s) {
+            macula::solve(s, sampling);
+        })->Unit(benchmark::kMillisecond);
     }
     benchmark::RegisterBenchmark("rank_tile", macula::make_tile)->Unit(benchmark::kMillisecond);
     benchmark::RegisterBenchmark("tile_tables", macula::make_tables)->Unit(benchmark::kMillisecond);
