@@ -73,9 +73,10 @@ public:
         const tinygltf::Primitive primitive = find_primitive();
         const auto position = primitive.attributes.find("POSITION");
         const int positions = position == primitive.attributes.end() ? -1 : position->second;
-        read_sites(mesh, elements(positions, TINYGLTF_TYPE_VEC3, TINYGLTF_COMPONENT_TYPE_FLOAT, "positions"));
-        read_triangles(
-            mesh, elements(primitive.indices, TINYGLTF_TYPE_SCALAR, TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT, "indices"));
+        read_sites(mesh, elements(positions, TINYGLTF_TYPE_VEC3, TINYGLTF_COMPONENT_TYPE_FLOAT, sizeof(Position),
+                                  "positions"));
+        read_triangles(mesh, elements(primitive.indices, TINYGLTF_TYPE_SCALAR, TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT,
+                                      sizeof(std::uint32_t), "indices"));
         return mesh;
     }
 
@@ -115,16 +116,15 @@ private:
         return {};
     }
 
-    /// The bytes of a tightly packed accessor; none after a fault.
-    std::span<const unsigned char> elements(int index, int type, int component_type, const std::string& name) {
+    /// The bytes of an accessor whose elements of `bytes_each` are tightly packed; none after a fault.
+    std::span<const unsigned char> elements(int index, int type, int component_type, std::size_t bytes_each,
+                                            const std::string& name) {
         if (index < 0 || static_cast<std::size_t>(index) >= model_.accessors.size()) {
             report("there are no " + name);
             return {};
         }
         const tinygltf::Accessor& accessor = model_.accessors[static_cast<std::size_t>(index)];
         const auto view = static_cast<std::size_t>(accessor.bufferView);
-        const auto bytes_each = static_cast<std::size_t>(tinygltf::GetNumComponentsInType(static_cast<uint32_t>(type)) *
-                                                         tinygltf::GetComponentSizeInBytes(component_type));
         if (accessor.type != type || accessor.componentType != component_type || accessor.normalized ||
             accessor.sparse.isSparse || accessor.bufferView < 0 || view >= model_.bufferViews.size() ||
             model_.bufferViews[view].buffer != 0 || model_.buffers.empty() ||
@@ -168,15 +168,15 @@ private:
     std::string fault_;
 };
 
-/// All that a mesh needs is in its file.
-bool no_file(const std::string& /*path*/, void* /*user*/) {
-    return false;
+// All that a mesh needs is in its file. tinygltf is told that any other exists, so that it tells why that is not read.
+bool any_file(const std::string& /*path*/, void* /*user*/) {
+    return true;
 }
 std::string same_path(const std::string& path, void* /*user*/) {
     return path;
 }
-bool no_content(std::vector<unsigned char>* /*out*/, std::string* error, const std::string& path, void* /*user*/) {
-    *error += "refers to the file " + path;
+bool no_content(std::vector<unsigned char>* /*out*/, std::string* error, const std::string& /*path*/, void* /*user*/) {
+    *error += "a mesh refers to no other file";
     return false;
 }
 bool no_image(tinygltf::Image* /*image*/, int /*index*/, std::string* /*error*/, std::string* /*warning*/,
@@ -188,7 +188,7 @@ bool no_image(tinygltf::Image* /*image*/, int /*index*/, std::string* /*error*/,
 std::string parse(std::span<const std::uint8_t> bytes, tinygltf::Model& model) {
     tinygltf::TinyGLTF parser;
     parser.SetImageLoader(no_image, nullptr);
-    parser.SetFsCallbacks({no_file, same_path, no_content, nullptr, nullptr});
+    parser.SetFsCallbacks({any_file, same_path, no_content, nullptr, nullptr});
     std::string error;
     std::string warning;  // of nothing that is used
     bool parsed = false;

@@ -16,7 +16,7 @@ glm::dvec2 place(const SamplePosition& site) {
 
 /// The value that the share 0..1 of all lies below, of at least one; sorts in part.
 double quantile(std::vector<float>& values, double share) {
-    const auto rank = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1) + 0.5);
+    const std::ptrdiff_t rank = std::lround(share * static_cast<double>(values.size() - 1));
     std::nth_element(values.begin(), values.begin() + rank, values.end());
     return values[static_cast<std::size_t>(rank)];
 }
