@@ -162,6 +162,20 @@ TEST_P(EachPlacement, FollowsADensityThatChanges) {
     }
 }
 
+/// Neither sparse sites nor sparse gaps clear the edge of what is dense.
+TEST_P(EachPlacement, KeepsTheEdgeOfADenseRegion) {
+    for (const double sparse : {0.02, 0.985}) {
+        DensityMap density = even_density(sparse, 512);
+        for (int y = 0; y < 512; ++y)
+            for (int x = 256; x < 512; ++x) density.density[y * 512 + x] = 0.5F;
+        const Sites sites = place(GetParam(), density, kSeed);
+        double count = 0.0;
+        for (int y = 0; y < 512; ++y)
+            for (int x = 256; x < 260; ++x) count += sites[y * 512 + x];
+        EXPECT_NEAR(count / (4 * 512), 0.5, 0.06) << "beside " << sparse;
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(Placements, EachPlacement, testing::ValuesIn(kPlacements), [](const auto& each) {
     std::string name = to_string(each.param);
     std::erase(name, '-');
