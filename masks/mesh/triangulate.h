@@ -7,7 +7,8 @@
 
 namespace macula {
 
-/// Delaunay triangulation of pixels, by Boost.Polygon's Voronoi diagram and exact integer predicates.
+/// Delaunay triangulation of pixels, by the sweep line of Boost.Polygon's Voronoi diagrams (Fortune 1987) and exact
+/// integer predicates. Takes about 2 us and 100 bytes a site.
 ///
 /// The triangles cover the convex hull of the sites without overlap; no other site lies inside the circle through a
 /// triangle's corners (of cocircular sites, as in a full grid, some triangulation is taken); none is degenerate.
