@@ -118,12 +118,13 @@ KERNEL bool interpolate_cell(KERNEL_IN(GridSource) source, GridCell cell, KERNEL
 }
 
 /// The samples of a rectangular grid around a pixel; a direction whose weight is all on one sample reads no other.
-KERNEL GridCell rectangular_cell(KERNEL_IN(GridView) view, int grid, uint column, uint row) {
+/// `in_row` is the grid's number of samples in a row.
+KERNEL GridCell rectangular_cell(int offset, int in_row, uint column, uint row) {
     int x = int(column & 255U);
     int y = int(row & 255U);
-    int first = view.offset[grid] + int(row >> 17) * view.columns[grid] + int(column >> 17);
+    int first = offset + int(row >> 17) * in_row + int(column >> 17);
     int right = x > 0 ? 1 : 0;
-    int below = y > 0 ? view.columns[grid] : 0;
+    int below = y > 0 ? in_row : 0;
     GridCell cell;
     cell.address = ivec4(first, first + right, first + below, first + below + right);
     cell.weight = bilinear_weights(x, y);
@@ -145,7 +146,9 @@ KERNEL bool rectangular_pixel(KERNEL_IN(GridSource) source, KERNEL_IN(GridView) 
         uint row = grid_row(source, grid, pixel.y);
         int shown = int(min((column >> 8) & 511U, (row >> 8) & 511U));
         if (shown == 0) continue;
-        if (!interpolate_cell(source, rectangular_cell(view, grid, column, row), color, inverse_depth)) continue;
+        if (!interpolate_cell(source, rectangular_cell(view.offset[grid], view.columns[grid], column, row), color,
+                              inverse_depth))
+            continue;
         weights[found] = left * shown / 256;
         colors[found] = color;
         depths[found] = inverse_depth;

@@ -5,6 +5,7 @@
 
 #include "server/render/grid_reconstructors.h"
 #include "server/render/grid_source.h"
+#include "server/render/lanes.h"
 #include "server/render/parallel_ranges.h"
 #include "server/render/reconstruction.h"
 
@@ -23,11 +24,7 @@ kernels::GridSource source_of(const SamplePlan& plan, const Samples& samples) {
     return source;
 }
 
-constexpr int kLanes = 16;
 constexpr int kWhole = 256;
-
-template <class T>
-using Lanes = std::array<T, kLanes>;
 
 /// Pixels of a row that are reconstructed at once, by the same functions as one by one but in loops that the compiler
 /// turns into vector code: one grid, and nothing missing.
@@ -35,11 +32,11 @@ class Strip {
 public:
     Strip(const kernels::GridSource& source, const kernels::GridView& view, int x, int y, const std::uint8_t* hidden)
         : source_(source), view_(view), x_(x), y_(y) {
-        if (hidden != nullptr) std::copy_n(hidden + x, kLanes, hidden_.begin());
+        if (hidden != nullptr) std::copy_n(hidden + x, kLaneCount, hidden_.value);
     }
 
     [[nodiscard]] bool all_hidden() const {
-        return std::none_of(hidden_.begin(), hidden_.end(), [](std::uint8_t is_hidden) { return is_hidden == 0; });
+        return std::none_of(hidden_.value, hidden_.value + kLaneCount, [](int is_hidden) { return is_hidden == 0; });
     }
 
     /// False: these pixels have to be reconstructed one by one.
@@ -52,7 +49,8 @@ public:
             find_rectangular_cells(grid);
         }
         if (!gather()) return false;
-        for (int i = 0; i < kLanes; ++i) {
+        MACULA_LANE_LOOP
+        for (int i = 0; i < kLaneCount; ++i) {
             const kernels::ivec4 weight(weight_[0][i], weight_[1][i], weight_[2][i], weight_[3][i]);
             const kernels::uvec4 colors(color_[0][i], color_[1][i], color_[2][i], color_[3][i]);
             const kernels::vec4 depths(depth_[0][i], depth_[1][i], depth_[2][i], depth_[3][i]);
@@ -72,7 +70,7 @@ private:
             const std::uint32_t* columns = source_.columns[static_cast<std::size_t>(grid)] + x_;
             int least = kWhole;
             int most = 0;
-            for (int i = 0; i < kLanes; ++i) {
+            for (int i = 0; i < kLaneCount; ++i) {
                 const int shown = static_cast<int>(columns[i] >> 8U & 511U);
                 least = std::min(least, shown);
                 most = std::max(most, shown);
@@ -85,11 +83,15 @@ private:
     void find_rectangular_cells(int grid) {
         const std::uint32_t row = kernels::grid_row(source_, grid, y_);
         const std::uint32_t* columns = source_.columns[static_cast<std::size_t>(grid)] + x_;
-        for (int i = 0; i < kLanes; ++i) set_cell(i, kernels::rectangular_cell(view_, grid, columns[i], row));
+        const int offset = view_.offset[grid];
+        const int in_row = view_.columns[grid];
+        MACULA_LANE_LOOP
+        for (int i = 0; i < kLaneCount; ++i) set_cell(i, kernels::rectangular_cell(offset, in_row, columns[i], row));
     }
     void find_log_polar_cells() {
         const float away_y = static_cast<float>(y_) + 0.5F - view_.centre_px.y;
-        for (int i = 0; i < kLanes; ++i) {
+        MACULA_LANE_LOOP
+        for (int i = 0; i < kLaneCount; ++i) {
             const kernels::vec2 away(static_cast<float>(x_ + i) + 0.5F - view_.centre_px.x, away_y);
             set_cell(i, kernels::log_polar_cell(view_, kernels::log_polar_place(view_, away)));
         }
@@ -108,11 +110,11 @@ private:
     bool gather() {
         int missing = 0;
         for (int corner = 0; corner < 4; ++corner) {
-            for (int i = 0; i < kLanes; ++i) {
+            for (int i = 0; i < kLaneCount; ++i) {
                 color_[corner][i] = source_.colors[address_[corner][i]];
                 depth_[corner][i] = source_.inverse_depths[address_[corner][i]];
             }
-            for (int i = 0; i < kLanes; ++i)
+            for (int i = 0; i < kLaneCount; ++i)
                 missing |= static_cast<int>(depth_[corner][i] < 0.0F) & static_cast<int>(hidden_[i] == 0);
         }
         return missing == 0;
@@ -122,22 +124,22 @@ private:
     const kernels::GridView& view_;
     int x_;
     int y_;
-    Lanes<std::uint8_t> hidden_ = {};
-    std::array<Lanes<int>, 4> address_;
-    std::array<Lanes<int>, 4> weight_;
-    std::array<Lanes<Rgba8>, 4> color_;
-    std::array<Lanes<float>, 4> depth_;
+    Lanes<int> hidden_ = {};  // as wide as what it selects, so that one loop takes both
+    Lanes<int> address_[4];
+    Lanes<int> weight_[4];
+    Lanes<Rgba8> color_[4];
+    Lanes<float> depth_[4];
 };
 
 void reconstruct_row(const kernels::GridSource& source, const kernels::GridView& view, int y,
                      const std::uint8_t* hidden, Rgba8* color, float* inverse_depth) noexcept {
-    for (int first = 0; first < view.size_px.x; first += kLanes) {
-        const int last = std::min(first + kLanes, view.size_px.x);
-        if (last - first == kLanes) {
+    for (int first = 0; first < view.size_px.x; first += kLaneCount) {
+        const int last = std::min(first + kLaneCount, view.size_px.x);
+        if (last - first == kLaneCount) {
             Strip strip(source, view, first, y, hidden);
             if (strip.all_hidden()) {
-                std::fill_n(color + first, kLanes, kernels::kOpaqueBlack);
-                std::fill_n(inverse_depth + first, kLanes, 0.0F);
+                std::fill_n(color + first, kLaneCount, kernels::kOpaqueBlack);
+                std::fill_n(inverse_depth + first, kLaneCount, 0.0F);
                 continue;
             }
             if (strip.reconstruct(color + first, inverse_depth + first)) continue;

@@ -25,8 +25,8 @@ int channel_difference(Rgba8 a, Rgba8 b) {
     return largest;
 }
 
-/// Random colours and surfaces; of a log-polar plan one surface, because there a weight that rounds the other way may
-/// choose the other one of two.
+/// Random colours and surfaces, and a sample in sixteen untraced or none; of a log-polar plan one surface, because
+/// there a weight that rounds the other way may choose the other one of two.
 Samples random_samples(const SamplePlan& plan, std::mt19937& random) {
     std::uniform_real_distribution<float> depth(0.01F, 4.0F);
     const bool surfaces = !plan.grids.rectangular.empty();
@@ -36,7 +36,7 @@ Samples random_samples(const SamplePlan& plan, std::mt19937& random) {
             if (!surfaces) return static_cast<float>(1.0 + 0.0005 * x + 0.0003 * y);
             return random() % 9 == 0 ? 0.0F : random() % 2 == 0 ? 1.0F + 0.05F * depth(random) : depth(random);
         });
-    if (surfaces)
+    if (surfaces && random() % 2 == 0)
         for (float& inverse_depth : samples.inverse_depth_per_m)
             if (random() % 16 == 0) inverse_depth = -1.0F;
     return samples;
