@@ -1,4 +1,5 @@
-// What the programs of cells and nearest read and write.
+// What the programs of cells and nearest read. One has an invocation per pixel of the window and expects the samples
+// nearby; two others run where that was not so for some pixel.
 struct NearestView {
     ivec2 size_px;  // of the sample image, guard bands included
     ivec2 window_px;
@@ -8,7 +9,6 @@ struct NearestView {
 
 layout(std430, binding = 0) readonly buffer SampleColors { uint sample_colors[]; };
 layout(std430, binding = 1) readonly buffer SampleInverseDepths { float sample_inverse_depths[]; };
-layout(std430, binding = 2) buffer Columns { uint columns[]; };  // 16 bits each: rows up and down to the next sample
 layout(std430, binding = 4) readonly buffer Nearby { int nearby_offsets[]; };  // int16 x, y
 layout(std430, binding = 3) readonly buffer View { NearestView view; };
 
@@ -24,12 +24,6 @@ ivec2 nearby(NearestSource source, int i) {
 }
 bool has_sample(NearestSource source, ivec2 pixel) {
     return sample_inverse_depths[pixel_index(pixel)] >= 0.0;
-}
-int above(NearestSource source, ivec2 pixel) {
-    return int(columns[pixel_index(pixel)] & 65535U);
-}
-int below(NearestSource source, ivec2 pixel) {
-    return int(columns[pixel_index(pixel)] >> 16);
 }
 uint nearest_color(NearestSource source, ivec2 pixel) {
     return sample_colors[pixel_index(pixel)];

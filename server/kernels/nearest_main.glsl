@@ -1,5 +1,6 @@
-// One invocation per pixel of the window.
+// One invocation per pixel of the window: its samples, if they are nearby.
 layout(local_size_x = 8, local_size_y = 8) in;
+layout(std430, binding = 2) writeonly buffer Unfinished { uint unfinished; };  // not 0: some pixel's are not
 
 void main() {
     ivec2 place = ivec2(gl_GlobalInvocationID.xy);
@@ -9,9 +10,8 @@ void main() {
     float inverse_depth = 0.0;
     if (!hidden_pixel(pixel)) {
         NearestSource source = NearestSource(0);
-        ivec2 at = place + view.guard_px;
-        NearestSamples held = find_nearby(source, at, view.wanted);
-        if (held.count == 0) held = find_by_columns(source, view.size_px.x, at, view.wanted);
+        NearestSamples held = find_nearby(source, place + view.guard_px, view.wanted);
+        if (held.count == 0) unfinished = 1U;
         blend_nearest(source, held, color, inverse_depth);
     }
     write_pixel(pixel, color, inverse_depth);

@@ -15,8 +15,9 @@ public:
     static Expected<GlNearestSearch> make(GlContext& context, int wanted);
 
     /// Writes the picture of a plan's window. `image` was cleared before it was filled with that plan, and is bound to
-    /// 0 and 1; picture and hidden pixels are bound as in picture_buffers.glsl.
-    void dispatch(const SamplePlan& plan, const GlSampleImage& image);
+    /// 0 and 1; picture and hidden pixels are bound as in picture_buffers.glsl. Waits for the search. Errors:
+    /// `graphics`.
+    Expected<void> dispatch(const SamplePlan& plan, const GlSampleImage& image);
 
 private:
     /// What the programs are told; std430 layout.
@@ -27,11 +28,17 @@ private:
         std::int32_t wanted;
     };
 
-    GlNearestSearch(GlContext& context, int wanted, ComputeProgram find_columns, ComputeProgram search);
+    struct Programs {
+        ComputeProgram search;
+        ComputeProgram find_columns;
+        ComputeProgram search_far;
+    };
+
+    GlNearestSearch(GlContext& context, int wanted, Programs programs);
 
     int wanted_;
-    ComputeProgram find_columns_;
-    ComputeProgram search_;
+    Programs programs_;
+    StorageBuffer<std::uint32_t> unfinished_;  ///< one: not 0 where some pixel's samples are far
     StorageBuffer<std::uint32_t> columns_;
     StorageBuffer<SamplePosition> offsets_;
     StorageBuffer<View> view_;

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 
 #include "protocol/gl/kernel_language.h"
+#include "server/render/lanes.h"
 #include "server/render/nearest_offsets.h"
 #include "server/render/parallel_ranges.h"
 
@@ -46,103 +48,142 @@ float nearest_inverse_depth(const NearestSource& source, ivec2 pixel) {
 
 }  // namespace macula::kernels
 
-#include "server/kernels/nearest_samples.h"
+#include "server/kernels/nearest_by_columns.h"
 
 namespace macula {
 
 namespace {
 
-constexpr int kRadius_px = kernels::kNearbyRadius_px;
-constexpr int kBlock_px = 32;
+constexpr int kBlock_px = 64;  // bits of a word
 constexpr int kRowGrain = 8;
 constexpr float kUnfinished = -1.0F;
+// Words before and after a row's, and rows before and after the picture's, where a search finds nothing.
+constexpr int kMarginWords = 1;
+constexpr int kMarginRows = kernels::kNearbyRadius_px;
+static_assert(kernels::kNearbyRadius_px <= kMarginWords * kBlock_px);
+
+/// Sets bit i for each of up to 64 values for which `test(i)` holds.
+template <class Test>
+std::uint64_t mask_of(int count, Test&& test) {
+    std::uint64_t mask = 0;
+    for (int i = 0; i < count; ++i) mask |= static_cast<std::uint64_t>(test(i) ? 1 : 0) << i;
+    return mask;
+}
 
 }  // namespace
 
-/// What neighbouring pixels of a row have found.
+/// 64 neighbouring pixels of a row.
 struct NearestSearch::Block {
-    std::array<std::uint16_t, kBlock_px> count;  ///< samples found, `wanted` or more where the search is over
-    std::array<std::uint8_t, kBlock_px> hidden;
-    /// Index into offsets_ of the samples found.
-    std::array<std::array<std::uint16_t, kBlock_px>, kernels::kMostNeighbours> found;
+    std::uint64_t hidden = 0;   ///< a bit each, also beyond the window
+    std::uint64_t sampled = 0;  ///< has a sample of its own
+    std::uint64_t open = 0;     ///< has not found enough
+    std::array<std::uint8_t, kBlock_px> count{};
+    /// Per pixel: indices into offsets_ of the samples found.
+    std::array<std::array<std::uint16_t, kernels::kMostNeighbours>, kBlock_px> found{};
 };
 
 NearestSearch::NearestSearch(int wanted) : wanted_(wanted), offsets_(nearest_offsets()) {}
 
 void NearestSearch::mark_samples(const SampleImage& image) {
-    const auto stride = static_cast<std::size_t>(image.width_px + 2 * kRadius_px + kBlock_px);
-    const std::size_t size = stride * static_cast<std::size_t>(image.height_px + 2 * kRadius_px);
-    if (present_stride_ != stride || present_.size() != size) present_.assign(size, 0);
-    present_stride_ = stride;
+    const int words = (image.width_px + kBlock_px - 1) / kBlock_px + 2 * kMarginWords + 1;
+    const std::size_t size =
+        static_cast<std::size_t>(words) * static_cast<std::size_t>(image.height_px + 2 * kMarginRows);
+    if (row_words_ != words || present_.size() != size) present_.assign(size, 0);
+    row_words_ = words;
     parallel_ranges(0, image.height_px, kRowGrain, [&](int first, int last) {
         for (int y = first; y < last; ++y) {
             const float* const depth = image.inverse_depth_per_m.data() +
                                        static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width_px);
-            std::uint8_t* const to =
-                present_.data() + static_cast<std::size_t>(y + kRadius_px) * present_stride_ + kRadius_px;
-            for (int x = 0; x < image.width_px; ++x) to[x] = depth[x] < 0.0F ? 0 : 1;
+            std::uint64_t* to = present_.data() + static_cast<std::ptrdiff_t>(y + kMarginRows) * words + kMarginWords;
+            for (int x = 0; x < image.width_px; x += kBlock_px)
+                *to++ = mask_of(std::min(kBlock_px, image.width_px - x), [&](int i) { return depth[x + i] >= 0.0F; });
         }
     });
-    steps_.clear();
-    for (const SamplePosition& offset : offsets_)
-        steps_.push_back(offset.y_px * static_cast<std::ptrdiff_t>(present_stride_) + offset.x_px);
+    windows_.clear();
+    for (const SamplePosition& offset : offsets_) {
+        const int bit = kMarginWords * kBlock_px + image.guard_px + offset.x_px;
+        windows_.push_back(
+            {static_cast<std::ptrdiff_t>(offset.y_px + image.guard_px + kMarginRows) * words + bit / kBlock_px,
+             static_cast<unsigned>(bit % kBlock_px)});
+    }
 }
 
-template <int wanted>
-void NearestSearch::search(const std::uint8_t* present, Block& block) const {
-    constexpr std::uint16_t kWanted = wanted;
-    for (int i = 0; i < kBlock_px; ++i) {
-        // A sample at the pixel itself is all it needs.
-        block.count[i] = (block.hidden[i] | present[i]) != 0 ? kWanted : std::uint16_t{0};
-        block.found[0][i] = 0;
-    }
-    constexpr std::size_t kTriesBetweenChecks = 4;
-    for (std::size_t o = 1; o < offsets_.size(); o += kTriesBetweenChecks) {
-        std::uint16_t least = kWanted;
-        for (int i = 0; i < kBlock_px; ++i) least = std::min(least, block.count[i]);
-        if (least == kWanted) return;
-        const std::size_t last = std::min(o + kTriesBetweenChecks, offsets_.size());
-        for (std::size_t t = o; t < last; ++t) {
-            const std::uint8_t* const there = present + steps_[t];
-            for (int i = 0; i < kBlock_px; ++i) {
-                const auto slot = static_cast<std::uint16_t>(there[i] != 0 ? block.count[i] : kWanted);
-                for (std::uint16_t s = 0; s < kWanted; ++s)
-                    block.found[s][i] = slot == s ? static_cast<std::uint16_t>(t) : block.found[s][i];
-                block.count[i] = static_cast<std::uint16_t>(block.count[i] + (slot < kWanted ? 1 : 0));
-            }
+void NearestSearch::search(const std::uint64_t* block_words, Block& block) const {
+    block.count.fill(0);
+    for (std::size_t t = 1; t < offsets_.size() && block.open != 0; ++t) {
+        const Window& window = windows_[t];
+        const std::uint64_t* const words = block_words + window.word;
+        const std::uint64_t there = words[0] >> window.shift | words[1] << 1U << (kBlock_px - 1 - window.shift);
+        for (std::uint64_t hits = there & block.open; hits != 0; hits &= hits - 1) {
+            const auto i = static_cast<std::size_t>(std::countr_zero(hits));
+            block.found[i][block.count[i]++] = static_cast<std::uint16_t>(t);
+            if (block.count[i] == wanted_) block.open &= ~(std::uint64_t{1} << i);
         }
     }
 }
 
-void NearestSearch::write_block(const SampleImage& image, glm::ivec2 place, int width, const Block& block,
-                                const ReconstructTarget& target, std::uint8_t& unfinished) const {
-    const glm::ivec2 in_image = place + image.guard_px;
-    const std::size_t own = image.index(place);
-    Rgba8* const color =
-        target.color + static_cast<std::size_t>(place.y) * target.color_stride_px + static_cast<std::size_t>(place.x);
-    float* const depth = target.inverse_depth_per_m + static_cast<std::size_t>(place.y) * target.depth_stride_px +
-                         static_cast<std::size_t>(place.x);
-    const kernels::NearestSource source{image, columns_, offsets_};
+/// Pixels made of samples nearby, and those samples: arrays of the nearest, the second nearest and so on, so that the
+/// loop over the pixels vectorises.
+struct NearestSearch::Blends {
+    template <class T>
+    using Pixels = std::array<T, kBlock_px>;
+
+    int count = 0;
+    Pixels<int> x{};
+    std::array<Pixels<int>, kernels::kMostNeighbours> distance_sq{};
+    std::array<Pixels<Rgba8>, kernels::kMostNeighbours> color{};
+    std::array<Pixels<float>, kernels::kMostNeighbours> inverse_depth{};
+    Pixels<Rgba8> mean_color{};
+    Pixels<float> mean_inverse_depth{};
+
+    void run() {
+        static_assert(kernels::kMostNeighbours == 4);
+        MACULA_LANE_LOOP
+        for (int i = 0; i < count; ++i) {
+            const float first = inverse_depth[0][i];
+            kernels::NearestSums sums = kernels::first_sums(color[0][i], first);
+            const int least = distance_sq[0][i];
+            kernels::add_sample(sums, first, kernels::nearby_weight(least, distance_sq[1][i]), color[1][i],
+                                inverse_depth[1][i]);
+            kernels::add_sample(sums, first, kernels::nearby_weight(least, distance_sq[2][i]), color[2][i],
+                                inverse_depth[2][i]);
+            kernels::add_sample(sums, first, kernels::nearby_weight(least, distance_sq[3][i]), color[3][i],
+                                inverse_depth[3][i]);
+            mean_color[i] = kernels::mean_color(sums);
+            mean_inverse_depth[i] = kernels::mean_inverse_depth(sums, first);
+        }
+    }
+};
+
+void NearestSearch::write_block(const SampleImage& image, std::size_t own, int width, const Block& block,
+                                Blends& blends, Rgba8* color, float* depth) const {
+    const Rgba8* const own_color = image.color.data() + own;
+    const float* const own_depth = image.inverse_depth_per_m.data() + own;
     for (int i = 0; i < width; ++i) {
-        if (block.hidden[i] != 0) {
-            color[i] = kernels::kOpaqueBlack;
-            depth[i] = 0.0F;
-        } else if (image.inverse_depth_per_m[own + static_cast<std::size_t>(i)] >= 0.0F) {
-            color[i] = image.color[own + static_cast<std::size_t>(i)];
-            depth[i] = image.inverse_depth_per_m[own + static_cast<std::size_t>(i)];
-        } else if (block.count[i] < wanted_) {
-            depth[i] = kUnfinished;
-            unfinished = 1;
-        } else {
-            kernels::NearestSamples held;
-            held.count = wanted_;
-            for (int s = 0; s < wanted_; ++s) {
-                const glm::ivec2 offset = kernels::nearby(source, block.found[static_cast<std::size_t>(s)][i]);
-                held.distance_sq[s] = offset.x * offset.x + offset.y * offset.y;
-                held.place[s] = in_image + glm::ivec2(i, 0) + offset;
-            }
-            kernels::blend_nearest(source, held, color[i], depth[i]);
+        const bool hidden = (block.hidden >> i & 1U) != 0;
+        color[i] = hidden ? kernels::kOpaqueBlack : own_color[i];
+        depth[i] = hidden ? 0.0F : own_depth[i];  // kUnfinished where there is no sample
+    }
+    blends.count = 0;
+    for (std::uint64_t made = ~(block.hidden | block.sampled | block.open); made != 0; made &= made - 1) {
+        const int i = std::countr_zero(made);
+        const auto& found = block.found[static_cast<std::size_t>(i)];
+        const std::size_t n = static_cast<std::size_t>(blends.count++);
+        blends.x[n] = i;
+        for (std::size_t s = 0; s < static_cast<std::size_t>(wanted_); ++s) {
+            const SamplePosition offset = offsets_[found[s]];
+            const std::ptrdiff_t at = i + std::ptrdiff_t{offset.y_px} * image.width_px + offset.x_px;
+            blends.distance_sq[s][n] = offset.x_px * offset.x_px + offset.y_px * offset.y_px;
+            blends.color[s][n] = own_color[at];
+            blends.inverse_depth[s][n] = own_depth[at];
         }
+    }
+    if (wanted_ > 1) blends.run();
+    const auto& colors = wanted_ > 1 ? blends.mean_color : blends.color[0];
+    const auto& depths = wanted_ > 1 ? blends.mean_inverse_depth : blends.inverse_depth[0];
+    for (int n = 0; n < blends.count; ++n) {
+        color[blends.x[n]] = colors[n];
+        depth[blends.x[n]] = depths[n];
     }
 }
 
@@ -169,24 +210,26 @@ void NearestSearch::reconstruct(const SamplePlan& plan, const SampleImage& image
     mark_samples(image);
     unfinished_.assign(static_cast<std::size_t>(plan.height_px), 0);
     parallel_ranges(0, plan.height_px, kRowGrain, [&](int first, int last) {
-        Block block{};
+        Block block;
+        Blends blends;
         for (int y = first; y < last; ++y) {
-            const std::uint8_t* const present =
-                present_.data() + static_cast<std::size_t>(y + image.guard_px + kRadius_px) * present_stride_ +
-                static_cast<std::size_t>(image.guard_px + kRadius_px);
-            const std::uint8_t* const hidden =
-                plan.hidden
-                    ? plan.hidden->data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(plan.width_px)
-                    : nullptr;
+            const std::uint64_t* const row = present_.data() + static_cast<std::ptrdiff_t>(y) * row_words_;
+            const std::size_t first_pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(plan.width_px);
             for (int x = 0; x < plan.width_px; x += kBlock_px) {
                 const int width = std::min(kBlock_px, plan.width_px - x);
-                for (int i = 0; i < kBlock_px; ++i)
-                    block.hidden[i] = i >= width || (hidden != nullptr && hidden[x + i] != 0) ? 1 : 0;
-                if (wanted_ == 1)
-                    search<1>(present + x, block);
-                else
-                    search<kernels::kMostNeighbours>(present + x, block);
-                write_block(image, {x, y}, width, block, target, unfinished_[static_cast<std::size_t>(y)]);
+                const std::size_t own = image.index({x, y});
+                block.hidden = width == kBlock_px ? 0 : ~std::uint64_t{0} << width;
+                if (plan.hidden) {
+                    const std::uint8_t* const hidden = plan.hidden->data() + first_pixel + static_cast<std::size_t>(x);
+                    block.hidden |= mask_of(width, [&](int i) { return hidden[i] != 0; });
+                }
+                block.sampled = mask_of(width, [&](int i) { return image.inverse_depth_per_m[own + i] >= 0.0F; });
+                block.open = ~(block.hidden | block.sampled);
+                search(row + x / kBlock_px, block);
+                write_block(image, own, width, block, blends,
+                            target.color + static_cast<std::size_t>(y) * target.color_stride_px + x,
+                            target.inverse_depth_per_m + static_cast<std::size_t>(y) * target.depth_stride_px + x);
+                if (block.open != 0) unfinished_[static_cast<std::size_t>(y)] = 1;
             }
         }
     });

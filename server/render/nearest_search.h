@@ -13,8 +13,9 @@ namespace macula {
 /// Makes each pixel of its nearest samples, with the result of server/kernels/nearest_samples.h, on the shared thread
 /// pool.
 ///
-/// Most pixels find theirs within some pixels. Those try the pixels around them in the order of distance, many
-/// pixels at once, until each has found enough. Only for the others the kernel is run.
+/// Most pixels find theirs nearby. Those try the pixels around them in the order of distance, 64 pixels of a row at
+/// once, each a bit of a word, until all have found enough: a try costs some instructions a word, and only what is
+/// found costs some a pixel. For the others nearest_by_columns.h is run.
 class NearestSearch {
 public:
     /// `wanted`: 1 to kernels::kMostNeighbours samples a pixel.
@@ -25,19 +26,25 @@ public:
 
 private:
     struct Block;
+    struct Blends;
+    /// Where the samples at an offset from the 64 pixels of a block are: from that bit of that word on, counted from
+    /// the block's word.
+    struct Window {
+        std::ptrdiff_t word = 0;
+        unsigned shift = 0;
+    };
 
     void mark_samples(const SampleImage& image);
-    template <int wanted>
-    void search(const std::uint8_t* present, Block& block) const;
-    void write_block(const SampleImage& image, glm::ivec2 place, int width, const Block& block,
-                     const ReconstructTarget& target, std::uint8_t& unfinished) const;
+    void search(const std::uint64_t* block_words, Block& block) const;
+    void write_block(const SampleImage& image, std::size_t own, int width, const Block& block, Blends& blends,
+                     Rgba8* color, float* depth) const;
     void finish_rows(const SamplePlan& plan, const SampleImage& image, const ReconstructTarget& target);
 
     int wanted_;
     std::vector<SamplePosition> offsets_;  ///< nearest_offsets()
-    std::vector<std::ptrdiff_t> steps_;    ///< the same in present_
-    std::vector<std::uint8_t> present_;    ///< 1 where there is a sample, with a margin around the image
-    std::size_t present_stride_ = 0;
+    std::vector<Window> windows_;          ///< the same in present_
+    std::vector<std::uint64_t> present_;   ///< a bit for each pixel of the image that has a sample, with a margin
+    int row_words_ = 0;
     std::vector<std::uint8_t> unfinished_;  ///< per row: some pixels have not found enough
     NearestColumns columns_;
 };

@@ -67,7 +67,7 @@ void GlPushPull::lay_out(const SamplePlan& plan, const GlSampleImage& image) {
     for (std::size_t i = 0; i < views_.size(); ++i) view_buffers_[i].write(views_[i]);
 }
 
-void GlPushPull::dispatch(const SamplePlan& plan, const GlSampleImage& image) {
+Expected<void> GlPushPull::dispatch(const SamplePlan& plan, const GlSampleImage& image) {
     lay_out(plan, image);
     colors_.bind(2);
     inverse_depths_.bind(3);
@@ -81,6 +81,7 @@ void GlPushPull::dispatch(const SamplePlan& plan, const GlSampleImage& image) {
     }
     view_buffers_[0].bind(4);
     dispatch_pixels(show_, views_[0].window_size);
+    return {};
 }
 
 }  // namespace macula

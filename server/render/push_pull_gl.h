@@ -19,8 +19,9 @@ public:
     static Expected<GlPushPull> make(GlContext& context);
 
     /// Writes the picture of a plan's window. `image` was cleared before it was filled with that plan, and is bound to
-    /// 0 and 1; picture and hidden pixels are bound as in picture_buffers.glsl.
-    void dispatch(const SamplePlan& plan, const GlSampleImage& image);
+    /// 0 and 1; picture and hidden pixels are bound as in picture_buffers.glsl. Errors: none before the picture is
+    /// read.
+    Expected<void> dispatch(const SamplePlan& plan, const GlSampleImage& image);
 
 private:
     /// What a program is told; std430 layout.

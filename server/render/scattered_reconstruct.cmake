@@ -10,5 +10,6 @@ macula_kernel_text(macula_scattered_reconstruct
     server/kernels/blend.h server/kernels/small_division.h server/kernels/picture_buffers.glsl
     server/kernels/push_pull.h server/kernels/push_pull_buffers.glsl server/kernels/push_pull_pull.glsl
     server/kernels/push_pull_push.glsl server/kernels/push_pull_show.glsl
-    server/kernels/nearest_samples.h server/kernels/nearest_buffers.glsl server/kernels/nearest_columns.glsl
-    server/kernels/nearest_main.glsl)
+    server/kernels/nearest_samples.h server/kernels/nearest_buffers.glsl server/kernels/nearest_main.glsl
+    server/kernels/nearest_by_columns.h server/kernels/nearest_columns_buffers.glsl
+    server/kernels/nearest_columns.glsl server/kernels/nearest_far_main.glsl)

@@ -67,7 +67,8 @@ public:
         hidden_.bind(5);
         picture_.resize(plan.width_px, plan.height_px);
         picture_.bind(6, 7);
-        programs_.dispatch(plan, image_);
+        const auto dispatched = programs_.dispatch(plan, image_);
+        if (!dispatched) return dispatched;
         return picture_.copy_to(target);
     }
     [[nodiscard]] std::string name() const override {

@@ -51,15 +51,15 @@ std::string check_cases(Reconstruction kind, ContextKind context_kind, std::uint
 }
 
 TEST(ScatteredGl, EqualsCppOnEglSurfaceless) {
-    for (const Reconstruction kind : test::kScattered) EXPECT_EQ(check_cases(kind, ContextKind::surfaceless, 40), "");
+    for (const Reconstruction kind : test::kScattered) EXPECT_EQ(check_cases(kind, ContextKind::surfaceless, 24), "");
 }
 
 TEST(ScatteredGl, EqualsCppOnOsMesa) {
-    for (const Reconstruction kind : test::kScattered) EXPECT_EQ(check_cases(kind, ContextKind::osmesa, 8), "");
+    for (const Reconstruction kind : test::kScattered) EXPECT_EQ(check_cases(kind, ContextKind::osmesa, 4), "");
 }
 
 TEST(ScatteredGl, EqualsCppOnTheBestContextHere) {
-    for (const Reconstruction kind : test::kScattered) EXPECT_EQ(check_cases(kind, ContextKind::automatic, 8), "");
+    for (const Reconstruction kind : test::kScattered) EXPECT_EQ(check_cases(kind, ContextKind::automatic, 4), "");
 }
 
 TEST(ScatteredGl, RefusesPlansWithoutSamplesAtPixelCentres) {
