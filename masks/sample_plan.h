@@ -40,8 +40,8 @@ struct PlaceInPixel {
 /// offset + 16 y + x. Some addresses are never traced: samples in the hidden area, and guard samples that no
 /// visible pixel interpolates.
 ///
-/// Mesh: the samples are sites of a triangulated mask that was moved to the gaze. All corners of a triangle that
-/// touches a visible pixel are traced.
+/// Mesh: the samples are sites of a triangulated mask that was moved to the gaze. All sites that a visible pixel
+/// interpolates (MeshPixel) are traced.
 ///
 /// Grids: the samples lie on regular grids, in general between pixel centres.
 struct SamplePlan {

@@ -14,14 +14,14 @@
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
-#include "masks/law.h"
-#include "masks/tile_sampler.h"
 #include "masks/tile_tables.h"
 #include "protocol/codec/codec.h"
 #include "protocol/codec/depth_codec.h"
 #include "protocol/transport/tls.h"
 #include "scenes/load.h"
 #include "scenes/needs.h"
+#include "server/mesh_shelf.h"
+#include "server/method_parts.h"
 #include "server/options.h"
 #include "server/render/reconstructor_factory.h"
 #include "server/render/tracer.h"
@@ -111,11 +111,12 @@ Expected<std::shared_ptr<const ReconstructorFactory>> make_reconstructors(
     return std::shared_ptr<const ReconstructorFactory>(*std::move(factory));
 }
 
-Expected<std::unique_ptr<Sampler>> make_sampler(const Display& display, Eye eye, const std::string& preset_name,
-                                                const std::shared_ptr<const TileTables>& tables) {
-    const auto preset = parse_sampling(preset_name);
-    if (!preset) return tl::unexpected(preset.error());
-    return std::make_unique<TileSampler>(display, eye, tile_law(display, eye, *preset), tables);
+Expected<std::shared_ptr<MeshShelf>> make_meshes(const Options& options, const Logger& logger) {
+    auto meshes = std::make_shared<MeshShelf>(options.mesh_cache,
+                                              [logger](const std::string& what) { logger->info("{}", what); });
+    if (options.mesh.empty()) return meshes;
+    if (auto read = meshes->read_own(options.mesh); !read) return tl::unexpected(read.error());
+    return meshes;
 }
 
 /// Serves until SIGINT or SIGTERM.
@@ -143,7 +144,8 @@ Expected<void> run(const Options& options, const Logger& logger) {
     // What can be wrong is looked at before the scene is loaded, which may take a while.
     const auto endpoint = parse_endpoint(options.listen);
     if (!endpoint) return tl::unexpected(endpoint.error());
-    if (auto sampling = parse_sampling(options.sampling); !sampling) return tl::unexpected(sampling.error());
+    const auto method = parse_method(options.sampling);
+    if (!method) return tl::unexpected(method.error());
     const auto make_color_encoder = [&options](int width_px, int height_px, double frame_rate_hz) {
         return make_video_encoder({options.encoder, width_px, height_px, frame_rate_hz, options.bit_rate_bps, 0});
     };
@@ -165,6 +167,11 @@ Expected<void> run(const Options& options, const Logger& logger) {
     const auto tracer = make_tracer(*scene, options.scene.tracer, logger);
     if (!tracer) return tl::unexpected(tracer.error());
     const auto tables = std::make_shared<const TileTables>(make_rank_tile());
+    const auto meshes = make_meshes(options, logger);
+    if (!meshes) return tl::unexpected(meshes.error());
+    if (method->mesh_file) {
+        if (auto own = (*meshes)->own(); !own) return tl::unexpected(own.error());
+    }
     const auto reconstructors = make_reconstructors(options, tables, logger);
     if (!reconstructors) return tl::unexpected(reconstructors.error());
 
@@ -174,11 +181,20 @@ Expected<void> run(const Options& options, const Logger& logger) {
     supplies.rank_tile = std::shared_ptr<const RankTile>(tables, &tables->rank_tile());
     supplies.renderer = (*tracer)->name() + "; " + (*reconstructors)->name();
     supplies.image_depth = needs.has(kNeedMirrors) || needs.has(kNeedTransmission) || needs.has(kNeedRefraction);
-    supplies.default_sampling = options.sampling;
-    supplies.make_sampler = [tables](const Display& display, Eye eye, const std::string& preset) {
-        return make_sampler(display, eye, preset, tables);
+    supplies.default_sampling = method->name;
+    supplies.make_sampler = [tables, meshes = *meshes](
+                                const Display& display, Eye eye,
+                                const std::string& sampling) -> Expected<std::unique_ptr<Sampler>> {
+        const auto wanted = parse_method(sampling);
+        if (!wanted) return tl::unexpected(wanted.error());
+        return make_sampler(*wanted, display, eye, tables, *meshes);
     };
-    supplies.make_reconstructor = [factory = *reconstructors] { return factory->make(); };
+    supplies.make_reconstructor =
+        [factory = *reconstructors](const std::string& sampling) -> Expected<std::unique_ptr<Reconstructor>> {
+        const auto wanted = parse_method(sampling);
+        if (!wanted) return tl::unexpected(wanted.error());
+        return factory->make(wanted->reconstruction);
+    };
     supplies.make_color_encoder = make_color_encoder;
     supplies.make_depth_encoder = [](int width_px, int height_px, double frame_rate_hz) {
         return make_depth_encoder({width_px, height_px, frame_rate_hz, 0});

@@ -16,8 +16,12 @@ std::variant<Options, int> parse_options(int argc, char** argv) {
         ->capture_default_str();
     app.add_option(
            "--sampling", options.sampling,
-           "Share of pixels to trace for clients without a wish of their own: full, or percent (54, 41, 27, 18)")
+           "How to make frames for clients without a wish of their own, [SAMPLER:]PRESET[/RECONSTRUCTION]: 27, full, "
+           "mesh:paper-27/raster, layers:27, ... (server/METHODS.md)")
         ->capture_default_str();
+    app.add_option("--mesh", options.mesh, "Mesh file, made by macula-mask, that sampling mesh:file is made with");
+    app.add_option("--mesh-cache", options.mesh_cache,
+                   "Folder that meshes are kept in (default: $XDG_CACHE_HOME/macula/meshes or ~/.cache/macula/meshes)");
     app.add_option("--context", options.context, "GL context: auto, egl (a GPU), surfaceless or osmesa")
         ->check(CLI::IsMember({"auto", "egl", "surfaceless", "osmesa"}))
         ->capture_default_str();

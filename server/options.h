@@ -14,6 +14,8 @@ struct Options {
     SceneOptions scene;
     std::string listen = "*:7470";
     std::string sampling = "27";
+    std::string mesh;        ///< file of sampling `mesh:file`
+    std::string mesh_cache;  ///< folder of made meshes; empty: default_mesh_cache()
     std::string context = "auto";
     std::string reconstruct_on = "auto";
     std::string encoder = "libx264";

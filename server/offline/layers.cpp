@@ -2,6 +2,7 @@
 
 #include <array>
 #include <limits>
+#include <vector>
 
 #include "server/kernels/color.h"
 
@@ -24,11 +25,25 @@ void scatter(const Shot& shot, Layers& layers) {
         layers.object.at(at.x_px, at.y_px) = shot.samples.object_id[address];
         layers.traced.at(at.x_px, at.y_px) = 1;
     }
+}
+
+/// Samples of each pixel's 16x16 tile: by the plan's levels, or where it has none, as many of its pixels as were
+/// traced.
+void count_in_tiles(const SamplePlan& plan, Layers& layers) {
+    const glm::ivec2 origin_px = plan.has_tiles() ? plan.origin_px : glm::ivec2(0);
+    const int tiles_x = plan.has_tiles() ? plan.tiles_x : (plan.width_px + kTileEdge_px - 1) / kTileEdge_px;
+    const auto tile_of = [&](int x, int y) {
+        const glm::ivec2 tile = (glm::ivec2(x, y) - origin_px) / kTileEdge_px;
+        return static_cast<std::size_t>(tile.y) * tiles_x + tile.x;
+    };
+    std::vector<std::uint16_t> count(tile_of(plan.width_px - 1, plan.height_px - 1) + 1, 0);
+    for (int y = 0; y < plan.height_px; ++y) {
+        for (int x = 0; x < plan.width_px; ++x) count[tile_of(x, y)] += layers.traced.at(x, y);
+    }
     for (int y = 0; y < plan.height_px; ++y) {
         for (int x = 0; x < plan.width_px; ++x) {
-            const glm::ivec2 tile = (glm::ivec2(x, y) - plan.origin_px) / kTileEdge_px;
-            const std::uint8_t level = plan.level[static_cast<std::size_t>(tile.y) * plan.tiles_x + tile.x];
-            layers.tile_samples.at(x, y) = kLevelCounts[level];
+            const std::size_t tile = tile_of(x, y);
+            layers.tile_samples.at(x, y) = plan.has_tiles() ? kLevelCounts[plan.level[tile]] : count[tile];
         }
     }
 }
@@ -68,6 +83,7 @@ Expected<Layers> make_layers(const Shot& shot, Reconstructor* reconstructor, flo
     layers.traced = {width_px, height_px};
     layers.tile_samples = {width_px, height_px};
     scatter(shot, layers);
+    count_in_tiles(shot.plan, layers);
     if (reconstructor == nullptr) return layers;
     if (auto done = interpolate(shot, *reconstructor, exposure, layers); !done) return tl::unexpected(done.error());
     return layers;

@@ -36,15 +36,15 @@ Expected<std::shared_ptr<const Scene>> load(const SceneOptions& options, Progres
 }
 
 /// Nothing where every pixel has its own sample, or where those without are to stay black.
-Expected<std::unique_ptr<Reconstructor>> make_reconstructor(const RenderOptions& options, bool full,
+Expected<std::unique_ptr<Reconstructor>> make_reconstructor(const RenderOptions& options, const ShotPlan& shot_plan,
                                                             const std::shared_ptr<const TileTables>& tables) {
-    if (full || options.reconstruct == "none") return nullptr;
+    if (shot_plan.full() || options.reconstruct == "none") return nullptr;
     ReconstructorOptions choice;
     choice.context = options.context;
     choice.reconstruct_on = options.reconstruct;
     const auto factory = make_reconstructor_factory(choice, tables);
     if (!factory) return tl::unexpected(factory.error());
-    return (*factory)->make();
+    return (*factory)->make(shot_plan.method().reconstruction);
 }
 
 /// One repetition: plan, trace, reconstruct.
@@ -111,7 +111,7 @@ Expected<void> run(const RenderOptions& options) {
     if (!tracer) return tl::unexpected(tracer.error());
     report.build_ms = ms_since(build_ns);
     const auto tables = std::make_shared<const TileTables>(make_rank_tile());
-    const auto reconstructor = make_reconstructor(options, shot_plan->full(), tables);
+    const auto reconstructor = make_reconstructor(options, *shot_plan, tables);
     if (!reconstructor) return tl::unexpected(reconstructor.error());
     report.scene = (*scene)->name;
     report.triangles = (*scene)->triangle_count();
@@ -120,17 +120,22 @@ Expected<void> run(const RenderOptions& options) {
     report.reconstruction = *reconstructor ? (*reconstructor)->name() : "none";
     report.tracer_bytes = (*tracer)->memory_bytes();
 
-    std::vector<Shot> shots = shot_plan->shots((*scene)->world_from_start, tables);
+    MeshShelf meshes(options.mesh_cache, [&progress](const std::string& what) { progress.note(what); });
+    if (!options.mesh.empty()) {
+        if (auto read = meshes.read_own(options.mesh); !read) return read;
+    }
+    auto shots = shot_plan->shots((*scene)->world_from_start, tables, meshes);
+    if (!shots) return tl::unexpected(shots.error());
     std::vector<Layers> pictures;
     for (int i = 0; i < options.repeat; ++i) {
         progress.begin("tracing");
-        auto frame = render(options, **tracer, reconstructor->get(), (*scene)->exposure, shots, progress, report);
+        auto frame = render(options, **tracer, reconstructor->get(), (*scene)->exposure, *shots, progress, report);
         if (!frame) return tl::unexpected(frame.error());
         pictures = *std::move(frame);
     }
-    if (auto written = write(options, *choice, (*scene)->exposure, shots, pictures, report); !written) return written;
+    if (auto written = write(options, *choice, (*scene)->exposure, *shots, pictures, report); !written) return written;
     for (const WrittenFile& file : report.files) progress.note("wrote " + file.path);
-    return options.json.empty() ? Expected<void>{} : write_text(options.json, to_json(report, options, shots));
+    return options.json.empty() ? Expected<void>{} : write_text(options.json, to_json(report, options, *shots));
 }
 
 }  // namespace

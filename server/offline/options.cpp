@@ -28,9 +28,12 @@ void add_sampling_options(CLI::App& app, RenderOptions& options) {
     app.add_option("--gaze", options.gaze, "YAW,PITCH of the gaze in degrees, to the left and up from straight ahead")
         ->capture_default_str();
     app.add_option("--sampling", options.sampling,
-                   "Pixels to trace: full, percent (54, 41, 27, 18), or an acuity law such as "
-                   "law:alpha=0.106,e2=2.3,contrast=0.0156,exponent=2,full=0 (any left out: these values)")
+                   "How the frame is made, [SAMPLER:]PRESET[/RECONSTRUCTION]: full, 27, mesh:paper-27/raster, "
+                   "layers:27, law:alpha=0.106,e2=2.3, ... (server/METHODS.md)")
         ->capture_default_str();
+    app.add_option("--mesh", options.mesh, "Mesh file, made by macula-mask, that sampling mesh:file is made with");
+    app.add_option("--mesh-cache", options.mesh_cache,
+                   "Folder that meshes are kept in (default: $XDG_CACHE_HOME/macula/meshes or ~/.cache/macula/meshes)");
     app.add_option("--spp", options.spp, "Samples of each traced pixel")
         ->check(CLI::Range(1, 65536))
         ->capture_default_str();

@@ -21,6 +21,8 @@ struct RenderOptions {
     double time_s = 0.0;
     std::string gaze = "0,0";  ///< "YAW,PITCH" in degrees, to the left and up from straight ahead
     std::string sampling = "full";
+    std::string mesh;        ///< file of sampling `mesh:file`
+    std::string mesh_cache;  ///< folder of made meshes; empty: default_mesh_cache()
     int spp = 1;
     std::string reconstruct = "cpu";
     std::string context = "auto";

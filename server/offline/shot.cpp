@@ -7,7 +7,7 @@
 
 #include <glm/trigonometric.hpp>
 
-#include "masks/tile_sampler.h"
+#include "server/method_parts.h"
 
 namespace macula {
 namespace {
@@ -95,13 +95,14 @@ Expected<ShotPlan> ShotPlan::parse(const RenderOptions& options) {
     if (!gaze) return tl::unexpected(gaze.error());
     plan.gaze_head_ = turn((*gaze)[0], (*gaze)[1]) * glm::vec3(0.0F, 0.0F, -1.0F);
 
-    auto preset = parse_sampling(options.sampling);
-    if (!preset) return tl::unexpected(preset.error());
-    plan.preset_ = *std::move(preset);
+    auto method = parse_method(options.sampling);
+    if (!method) return tl::unexpected(method.error());
+    plan.method_ = *std::move(method);
     return plan;
 }
 
-std::vector<Shot> ShotPlan::shots(const Pose& world_from_start, const std::shared_ptr<const TileTables>& tables) const {
+Expected<std::vector<Shot>> ShotPlan::shots(const Pose& world_from_start,
+                                            const std::shared_ptr<const TileTables>& tables, MeshShelf& meshes) const {
     Pose world_from_head = world_from_start;
     world_from_head.orientation = world_from_head.orientation * start_from_head_;
     if (position_m_) world_from_head.position_m = *position_m_;
@@ -113,7 +114,9 @@ std::vector<Shot> ShotPlan::shots(const Pose& world_from_start, const std::share
         shot.view = {world_from_head * geometry.head_from_eye, geometry.tangents, display_.eye_width_px,
                      display_.eye_height_px};
         shot.gaze_eye = glm::normalize(geometry.head_from_eye.inverse().direction(gaze_head_));
-        shot.sampler = std::make_unique<TileSampler>(display_, eye, tile_law(display_, eye, preset_), tables);
+        auto sampler = make_sampler(method_, display_, eye, tables, meshes);
+        if (!sampler) return tl::unexpected(sampler.error());
+        shot.sampler = *std::move(sampler);
     }
     return result;
 }

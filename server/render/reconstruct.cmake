@@ -1,7 +1,6 @@
-# Samples to pictures: the kernel as C++ and on a GL context, and which of them a session uses.
+# Tile plans to pictures: the kernel as C++ and on a GL context.
 macula_library(macula_reconstruct
     SOURCES reference_reconstructor.cpp cpu_reconstructor.cpp gl_reconstructor.cpp
-            reconstructor_choice.cpp reconstructor_factory.cpp
     LINK macula_masks
     PRIVATE_LINK macula_kernels macula_gl macula_parallel macula_sample_image)
 # The reference and the fast path agree to the bit: neither may fuse a product and a sum that the other does not.

@@ -3,6 +3,7 @@
 #include <memory>
 #include <string>
 
+#include "server/render/reconstruction.h"
 #include "server/render/reconstructor.h"
 
 namespace macula {
@@ -24,7 +25,8 @@ public:
     ReconstructorFactory& operator=(const ReconstructorFactory&) = delete;
     virtual ~ReconstructorFactory() = default;
     /// Errors: `graphics`.
-    [[nodiscard]] virtual Expected<std::unique_ptr<Reconstructor>> make() const = 0;
+    [[nodiscard]] virtual Expected<std::unique_ptr<Reconstructor>> make(
+        Reconstruction kind = Reconstruction::tiles) const = 0;
     /// For the log and Welcome: "C++", or "GL (EGL surfaceless, llvmpipe ...)".
     [[nodiscard]] virtual const std::string& name() const = 0;
     /// For the log: why, with what was measured.
@@ -32,7 +34,7 @@ public:
 };
 
 /// Chooses where sessions will reconstruct: tries the context, and where GL is software and the choice automatic,
-/// takes the time of both ways, which lasts a fraction of a second.
+/// takes the time of both ways on tiles, which lasts a fraction of a second; what is found holds for all kinds.
 /// Errors: `option`; `graphics` if GL or a certain kind of context was asked for and does not work.
 Expected<std::unique_ptr<ReconstructorFactory>> make_reconstructor_factory(const ReconstructorOptions& options,
                                                                            std::shared_ptr<const TileTables> tables);

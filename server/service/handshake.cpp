@@ -48,7 +48,7 @@ Expected<Admission> admit(const Hello& hello, const Supplies& supplies) {
         if (!sampler) return tl::unexpected(sampler.error());
         maker_parts.samplers[eye] = *std::move(sampler);
     }
-    auto reconstructor = supplies.make_reconstructor();
+    auto reconstructor = supplies.make_reconstructor(sampling);
     if (!reconstructor) return tl::unexpected(reconstructor.error());
     maker_parts.reconstructor = *std::move(reconstructor);
     admission.reconstructor = maker_parts.reconstructor->name();

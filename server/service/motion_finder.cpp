@@ -43,6 +43,14 @@ std::size_t index(int block) {
     return static_cast<std::size_t>(block);
 }
 
+/// How many blocks away the next sample of a plan may be.
+int reach_blocks(const SamplePlan& plan) {
+    // The sparsest tiles have four samples. Elsewhere, a hole is hardly ever wider than twice the distance of samples.
+    if (plan.has_tiles() || plan.spacing.empty()) return 4;
+    const float widest_px = 2.0F * *std::max_element(plan.spacing.begin(), plan.spacing.end());
+    return 1 + static_cast<int>(widest_px) / kDepthBlock_px;
+}
+
 /// Whether a client accepts it; what it would refuse counts as still.
 bool within_limits(const MovingObject& object) {
     // Written so that not-a-number is outside.
@@ -79,7 +87,7 @@ void MotionFinder::find(double time_s, const PerEye<SamplePlan>& plans, const Pe
     for (std::size_t eye = 0; eye < kEyeCount; ++eye) {
         map_samples(plans[eye], samples[eye]);
         const auto left_px = static_cast<std::ptrdiff_t>(eye) * blocks_.columns * kDepthBlock_px;
-        fill_between(inverse_depth.texels.data() + left_px, inverse_depth.width_px);
+        fill_between(reach_blocks(plans[eye]), inverse_depth.texels.data() + left_px, inverse_depth.width_px);
         for (int row = 0; row < blocks_.rows; ++row) {
             std::copy_n(blocks_.slot.begin() + static_cast<std::ptrdiff_t>(row) * blocks_.columns, blocks_.columns,
                         map_.begin() +
@@ -150,12 +158,11 @@ void MotionFinder::map_samples(const SamplePlan& plan, const Samples& samples) {
     }
 }
 
-/// Blocks without a sample get the slot of a neighbour. Only blocks near a moving one need an answer.
-void MotionFinder::fill_between(const float* inverse_depth, std::ptrdiff_t stride) {
-    // The sparsest tiles have four samples: from any block of theirs, the next sample is at most so many blocks away.
-    constexpr int kPasses = 4;
-    find_empty(kPasses);
-    for (int pass = 0; pass < kPasses && !empty_.empty(); ++pass) {
+/// Blocks without a sample get the slot of a neighbour. Only blocks near a moving one need an answer. From any block,
+/// the next sample is at most `reach` blocks away.
+void MotionFinder::fill_between(int reach, const float* inverse_depth, std::ptrdiff_t stride) {
+    find_empty(reach);
+    for (int pass = 0; pass < reach && !empty_.empty(); ++pass) {
         filled_.clear();
         still_empty_.clear();
         for (const int block : empty_) {

@@ -45,7 +45,7 @@ private:
     void list_objects(double time_s, Frame& frame);
     [[nodiscard]] std::uint8_t slot_of(std::uint32_t object_id) const;
     void map_samples(const SamplePlan& plan, const Samples& samples);
-    void fill_between(const float* inverse_depth, std::ptrdiff_t stride);
+    void fill_between(int reach, const float* inverse_depth, std::ptrdiff_t stride);
     void find_empty(int reach);
     [[nodiscard]] int neighbour_like(int block, const float* inverse_depth, std::ptrdiff_t stride) const;
 

@@ -31,11 +31,11 @@ struct Supplies {
     std::shared_ptr<const RankTile> rank_tile;
     std::string renderer;          ///< tracer and reconstruction, for the client's log
     std::string codec = "h264";    ///< protocol name of what make_color_encoder codes ("h264")
-    std::string default_sampling;  ///< preset for clients that leave the choice to the server
+    std::string default_sampling;  ///< method for clients that leave the choice to the server
 
-    /// Errors: `option` for an unknown preset.
-    std::function<Expected<std::unique_ptr<Sampler>>(const Display&, Eye, const std::string& preset)> make_sampler;
-    std::function<Expected<std::unique_ptr<Reconstructor>>()> make_reconstructor;
+    // `sampling` is the name of a method (server/method.h). Errors: `option`, if it is unknown.
+    std::function<Expected<std::unique_ptr<Sampler>>(const Display&, Eye, const std::string& sampling)> make_sampler;
+    std::function<Expected<std::unique_ptr<Reconstructor>>(const std::string& sampling)> make_reconstructor;
     std::function<Expected<std::unique_ptr<VideoEncoder>>(int width_px, int height_px, double frame_rate_hz)>
         make_color_encoder;
     std::function<Expected<std::unique_ptr<DepthEncoder>>(int width_px, int height_px, double frame_rate_hz)>

@@ -36,7 +36,7 @@ Supplies fake_supplies() {
         if (preset != "27" && preset != "full") return fail(ErrorCode::option, "no sampling preset " + preset);
         return std::make_unique<testing::FakeSampler>(display.eye_width_px, display.eye_height_px);
     };
-    supplies.make_reconstructor = [] { return std::make_unique<testing::FakeReconstructor>(); };
+    supplies.make_reconstructor = [](const std::string&) { return std::make_unique<testing::FakeReconstructor>(); };
     supplies.make_color_encoder = [](int width_px, int height_px, double) {
         EXPECT_EQ(width_px, 128);
         EXPECT_EQ(height_px, 80);
@@ -114,7 +114,7 @@ TEST(Admit, SaysWhatIsWrong) {
     EXPECT_NE(reason(hello), "");
 
     Supplies supplies = fake_supplies();
-    supplies.make_reconstructor = [] { return fail(ErrorCode::graphics, "no context"); };
+    supplies.make_reconstructor = [](const std::string&) { return fail(ErrorCode::graphics, "no context"); };
     EXPECT_EQ(reason(good_hello(), supplies), "no context");
 
     supplies = fake_supplies();

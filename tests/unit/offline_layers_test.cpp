@@ -21,7 +21,8 @@ protected:
         options.camera_fov_deg = 60.0;
         options.size = "100x70";
         options.sampling = "18";
-        shots_ = ShotPlan::parse(options)->shots({}, tables_);
+        MeshShelf meshes({}, [](const std::string&) {});
+        shots_ = ShotPlan::parse(options)->shots({}, tables_, meshes).value();
         shot().sampler->plan({shot().gaze_eye, glm::ivec2(0)}, shot().plan);
         const std::size_t count = shot().plan.address_count();
         Samples& samples = shot().samples;

@@ -24,7 +24,11 @@ const std::shared_ptr<const TileTables>& tables() {
 std::vector<Shot> shots_of(const RenderOptions& options, const Pose& start = {}) {
     const auto plan = ShotPlan::parse(options);
     EXPECT_TRUE(plan) << plan.error().message;
-    return plan ? plan->shots(start, tables()) : std::vector<Shot>{};
+    if (!plan) return {};
+    MeshShelf meshes({}, [](const std::string&) {});
+    auto shots = plan->shots(start, tables(), meshes);
+    EXPECT_TRUE(shots) << shots.error().message;
+    return shots ? *std::move(shots) : std::vector<Shot>{};
 }
 
 void expect_near(const vec3& a, const vec3& b) {
