@@ -11,7 +11,7 @@ usage: deploy/demo.sh [options]
                          (default: a simulated viewer, recorded first and then replayed)
   --seconds N            how long the client stays connected         (default 10)
   --headset NAME|FILE    desktop, vive, or a display file            (default desktop)
-  --sampling NAME        18, 27, 41, 54 (percent) or full            (default 18)
+  --sampling METHOD      18, 27, 41, 54 (percent), full, or any of server/METHODS.md  (default 18)
   --out DIR              where pictures, video and tables go         (default out/demo)
 USAGE
 }
