@@ -41,7 +41,8 @@ void RenderProgram::draw(const StorageBuffer<std::uint32_t>& indices, std::span<
     for (const IndexRange& range : ranges) {
         counts.push_back(static_cast<GLsizei>(range.count));
         // GL takes an offset into the index buffer in the guise of a pointer.
-        offsets.push_back(reinterpret_cast<const void*>(std::uintptr_t{range.first} * sizeof(std::uint32_t)));
+        const std::uintptr_t offset_bytes = std::uintptr_t{range.first} * sizeof(std::uint32_t);
+        offsets.push_back(reinterpret_cast<const void*>(offset_bytes));  // NOLINT(performance-no-int-to-ptr)
     }
     gl.UseProgram(id_);
     gl.BindVertexArray(vertex_array_);

@@ -103,7 +103,7 @@ Expected<unsigned> build_program(GlContext& context, std::span<const ShaderStage
         const auto shader = compile(context, stage);
         if (!shader) {
             gl.DeleteProgram(program);
-            return shader;
+            return tl::unexpected(shader.error());
         }
         gl.AttachShader(program, *shader);
         gl.DeleteShader(*shader);  // stays alive with the program
