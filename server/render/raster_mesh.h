@@ -25,7 +25,7 @@ struct RasterVertex {
 /// it, so a skirt of triangles one pixel wide continues the mesh outwards with the colours of its border.
 class RasterMesh {
 public:
-    /// Sorts: half a second for a million sites.
+    /// Sorts: a tenth of a second for a million sites.
     explicit RasterMesh(const SampleMesh& mesh);
 
     /// Sites in the mesh's order, then the skirt's corners.

@@ -26,6 +26,7 @@
 #include "masks/tile_tables.h"
 #include "protocol/gl/context.h"
 #include "server/render/mesh_reconstructors.h"
+#include "server/render/raster_mesh.h"
 #include "server/render/reconstructor.h"
 #include "server/render/sample_image.h"
 #include "tests/support/tile_plans.h"
@@ -143,6 +144,13 @@ void scatter(benchmark::State& state) {
     });
 }
 
+/// What a raster reconstructor does when a mesh is new.
+void sort_triangles(benchmark::State& state) {
+    const Scenario& scenario = scenario_of(make_mesh_scenario, static_cast<int>(state.range(0)));
+    for (auto _ : state) benchmark::DoNotOptimize(RasterMesh(scenario.plan.mesh->mesh()));
+    state.counters["sites"] = static_cast<double>(scenario.plan.mesh->mesh().site.size());
+}
+
 void gl(benchmark::State& state, Expected<std::unique_ptr<Reconstructor>> (*make)(std::unique_ptr<GlContext>),
         MakeScenario scenario) {
     auto context = make_gl_context(ContextKind::automatic);
@@ -174,6 +182,7 @@ BENCHMARK_CAPTURE(cpp, tiles, make_cpu_tiles, make_tile_scenario)->Apply(shares_
 BENCHMARK_CAPTURE(cpp, table, make_cpu_table_reconstructor, make_mesh_scenario)->Apply(shares_and_threads);
 BENCHMARK(scatter)->Apply(shares);
 BENCHMARK_CAPTURE(cpp, raster, make_cpu_raster_reconstructor, make_mesh_scenario)->Apply(shares_and_threads);
+BENCHMARK(sort_triangles)->Apply(shares);
 BENCHMARK_CAPTURE(gl, tiles, make_gl_tiles, make_tile_scenario)->Apply(shares);
 BENCHMARK_CAPTURE(gl, table, make_gl_table_reconstructor, make_mesh_scenario)->Apply(shares);
 BENCHMARK_CAPTURE(gl, raster, make_gl_raster_reconstructor, make_mesh_scenario)->Apply(shares);

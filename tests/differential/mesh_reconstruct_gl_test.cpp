@@ -38,8 +38,8 @@ std::string check_table(ContextKind kind, std::uint32_t first, std::uint32_t las
     return {};
 }
 
-// GL computes a value from its slope over a triangle and its value at the picture's corner, in floats. What is lost is
-// some 1e-7 of slope times distance: in a picture of 120 pixels, of 120 times the largest jump between pixels.
+// GL computes a value from its slopes over a triangle, which are rounded, and continues them from the picture's corner:
+// some 1e-7 of the largest value, 4.4 per metre, is lost for every pixel of the way, at most 120.
 constexpr float kDepthTolerance = 4.4F * 120.0F * 2.4e-7F;
 
 struct Deviation {
