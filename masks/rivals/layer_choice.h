@@ -19,7 +19,7 @@ struct LayerChoice {
 inline constexpr double kFadeSamples = 2.0;
 
 /// The choice with the least samples of which each layer is as dense as a law asks for where it begins (Guenter et al.
-/// 2012, section 4): a layer that begins at eccentricity e has s = max(1, (w0 + m e) / w*) pixels a sample, where w* is
+/// 2012): a layer that begins at eccentricity e has s = max(1, (w0 + m e) / w*) pixels a sample, where w* is
 /// the angle of two pixels, a cycle, at the axis. The inner layer has a sample a pixel and ends no sooner than s > 1.
 ///
 /// The paper counts the samples of whole layers because it renders them whole; here those under a finer layer are not

@@ -18,11 +18,11 @@ namespace macula {
 /// by the least number of samples (layer_choice.h). The slope m of the law is solved for the share.
 ///
 /// What had to be chosen: the samples of a layer lie on a lattice that is fixed to the window, and the layer's square
-/// moves over it with the gaze. A lattice that were fixed to the gaze would let every edge in the periphery crawl as
-/// the eye moves, a weakness that follows from no part of the method. What remains of its known weakness, twinkling, is
-/// that of few samples and of layers' edges that pass over the picture; against it the paper jitters the samples from
-/// frame to frame and reprojects. So the lattices move with the request's phase within their cells, but for that of the
-/// inner layer, whose samples are the centres of pixels; reprojection is the client's.
+/// moves over it with the gaze. If the lattice moved too, every edge in the periphery would crawl with the eye, which
+/// is no part of the method. The method's known weakness remains, twinkling: few samples, and edges of layers that pass
+/// over the picture. Against it the paper jitters the samples from frame to frame and reprojects. So the lattices move
+/// with the request's phase within their cells, but for that of the inner layer, whose samples are the centres of
+/// pixels; reprojection is the client's.
 ///
 /// What is not done: samples under a finer layer, which the paper renders, are not traced.
 class LayerSampler final : public Sampler {

@@ -24,8 +24,8 @@ namespace macula {
 /// lie within two pixels of the gaze. Here the first column is the circle of one pixel and the last one goes through
 /// the farthest corner.
 ///
-/// There is no full resolution: however many samples, none lies at most pixels' centres, and near the gaze columns are
-/// farther apart than pixels (1, 3.7, 4.7 px with 840 columns) while rows are far closer.
+/// There is no full resolution: however many samples there are, they do not lie at the centres of pixels, and near the
+/// gaze columns are farther apart than pixels (1, 3.7, 4.7 px with 840 columns) while rows are far closer.
 ///
 /// Left out is the paper's blur of the buffer's outer part, 3x3, which is a filter on top of the method; the client
 /// filters over time whatever the method. The request's phase turns and widens the circles within their distance.
@@ -45,7 +45,7 @@ public:
 private:
     LogPolarSampler(const Display& display, Eye eye, double share);
 
-    /// One column or row, and what follows from it for its samples.
+    /// One column.
     struct Circle {
         float radius_px = 0.0F;
         float spacing_px = 0.0F;

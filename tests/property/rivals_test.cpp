@@ -122,17 +122,20 @@ TEST(Rivals, SamplesLieWhereTheLayoutSays) {
             const double rounding = 0.501 / 256.0;
             for (const RectangularGrid& grid : plan.grids.rectangular)
                 for (int i = 0; i < grid.count.x * grid.count.y; ++i) {
+                    const int column = i % grid.count.x;
+                    const int row = i / grid.count.x;
                     const glm::dvec2 at = place_px(plan, grid.offset + static_cast<std::uint32_t>(i));
-                    ASSERT_NEAR(at.x, double{grid.first_px.x} + i % grid.count.x * double{grid.step_px.x}, rounding);
-                    ASSERT_NEAR(at.y, double{grid.first_px.y} + i / grid.count.x * double{grid.step_px.y}, rounding);
+                    ASSERT_NEAR(at.x, double{grid.first_px.x} + column * double{grid.step_px.x}, rounding);
+                    ASSERT_NEAR(at.y, double{grid.first_px.y} + row * double{grid.step_px.y}, rounding);
                 }
             const LogPolarGrid& polar = plan.grids.log_polar;
             for (int i = 0; i < polar.count.x * polar.count.y; ++i) {
                 const glm::dvec2 at = place_px(plan, static_cast<std::uint32_t>(i));
-                const double part = (i % polar.count.x + double{polar.phase.x}) / (polar.count.x - 1);
+                const int column = i % polar.count.x;
+                const int row = i / polar.count.x;
+                const double part = (column + double{polar.phase.x}) / (polar.count.x - 1);
                 const double radius = std::exp(polar.log_radius * std::pow(part, 0.25));
-                const double angle =
-                    2.0 * std::numbers::pi * (i / polar.count.x + double{polar.phase.y}) / polar.count.y;
+                const double angle = 2.0 * std::numbers::pi * (row + double{polar.phase.y}) / polar.count.y;
                 ASSERT_NEAR(at.x, polar.centre_px.x + radius * std::cos(angle), 1.5 * rounding);
                 ASSERT_NEAR(at.y, polar.centre_px.y + radius * std::sin(angle), 1.5 * rounding);
             }
@@ -161,7 +164,8 @@ TEST(Rivals, FullIsEveryVisiblePixelAtItsCentre) {
         std::vector<std::uint8_t> traced(plan.hidden->size());
         for (const std::uint32_t address : plan.trace_order) {
             const SamplePosition at = plan.position[address];
-            ++traced.at(static_cast<std::size_t>(at.y_px * plan.width_px + at.x_px));
+            ++traced.at(static_cast<std::size_t>(at.y_px) * static_cast<std::size_t>(plan.width_px) +
+                        static_cast<std::size_t>(at.x_px));
             EXPECT_EQ(plan.spacing_px(address), 1.0F);
         }
         for (std::size_t i = 0; i < traced.size(); ++i) ASSERT_EQ(traced[i], (*plan.hidden)[i] == 0 ? 1 : 0) << name;
