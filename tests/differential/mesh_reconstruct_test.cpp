@@ -243,15 +243,14 @@ TEST(MeshReconstruct, ColourAndDepthMayHaveRowsOfDifferentLength) {
 }
 
 TEST(MeshReconstruct, PlanWithoutAMeshIsRefused) {
-    const SamplePlan tiles = test::tile_plan(
-        test::shared_tables()->rank_tile(), 30, 20, {0, 0}, [](int, int) { return 5; }, [](int, int) { return true; });
-    const Samples samples = sample_picture(
-        tiles, [](int, int) { return 0U; }, [](int, int) { return 0.0F; });
-    ColorImage color(30, 20);
-    InverseDepthImage depth(30, 20);
+    SamplePlan plan;
+    plan.width_px = plan.height_px = 1;
+    plan.position.resize(1);
+    Rgba8 color = 0;
+    float depth = 0.0F;
     for (const auto& made :
          {make_reference_table_reconstructor, make_cpu_table_reconstructor, make_cpu_raster_reconstructor}) {
-        const auto refused = made()->reconstruct(tiles, samples, {color.texels.data(), 30, depth.texels.data(), 30});
+        const auto refused = made()->reconstruct(plan, {}, {&color, 1, &depth, 1});
         ASSERT_FALSE(refused);
         EXPECT_EQ(refused.error().code, ErrorCode::option);
         EXPECT_NE(refused.error().message.find("mesh"), std::string::npos) << refused.error().message;
