@@ -254,7 +254,8 @@ std::string draw_chart(const Chart& chart) {
     const Frame frame{chart};
     const glm::dvec2 legend = legend_size(chart);
     const glm::dvec2 corner = legend_corner(frame, legend);
-    SvgWriter svg(std::max(chart.width, corner.x + legend.x + 10.0), chart.height, chart.title);
+    const double width = legend.y > 0.0 ? std::max(chart.width, corner.x + legend.x + 10.0) : chart.width;
+    SvgWriter svg(width, chart.height, chart.title);
     draw_axes(svg, frame);
     std::size_t style = 0;
     for (const ChartSeries& series : chart.series) {

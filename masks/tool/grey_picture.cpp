@@ -10,11 +10,37 @@
 #include <glm/geometric.hpp>
 
 namespace macula {
+namespace {
+
+/// How much of a pixel lies on one side of a straight line: a function of the distance of the pixel's centre from it,
+/// positive on that side. It is the integral of the pixel's extent across the line, which is a trapezium.
+class HalfPlaneCover {
+public:
+    explicit HalfPlaneCover(glm::dvec2 normal) {
+        const glm::dvec2 extent = glm::abs(normal);
+        wide_ = 0.5 * std::max(extent.x, extent.y);
+        narrow_ = 0.5 * std::min(extent.x, extent.y);
+    }
+    [[nodiscard]] double at(double distance) const {
+        if (narrow_ < 1e-6) return std::clamp(0.5 + 0.5 * distance / wide_, 0.0, 1.0);
+        const auto ramp = [](double x) { return x > 0.0 ? x * x : 0.0; };
+        const double sum = ramp(distance + wide_ + narrow_) - ramp(distance + wide_ - narrow_) -
+                           ramp(distance - wide_ + narrow_) + ramp(distance - wide_ - narrow_);
+        return std::clamp(sum / (8.0 * wide_ * narrow_), 0.0, 1.0);
+    }
+
+private:
+    double wide_;
+    double narrow_;
+};
+
+}  // namespace
 
 void draw_line(GreyPicture& picture, glm::dvec2 from, glm::dvec2 to, double width, std::uint8_t grey) {
     const double length = glm::distance(from, to);
     if (!(length > 0.0)) return;
     const glm::dvec2 along = (to - from) / length;
+    const HalfPlaneCover cover(glm::dvec2(along.y, -along.x));
     const double reach = 0.5 * width + 1.0;
     const auto first = [reach](double a, double b) {
         return static_cast<int>(std::max(0.0, std::floor(std::min(a, b) - reach)));
@@ -34,10 +60,10 @@ void draw_line(GreyPicture& picture, glm::dvec2 from, glm::dvec2 to, double widt
         }
         for (int x = first(low, high); x <= last(low, high, picture.width_px); ++x) {
             const glm::dvec2 offset = glm::dvec2(x + 0.5, y + 0.5) - from;
-            const double across = std::abs(offset.x * along.y - offset.y * along.x);
+            const double across = offset.x * along.y - offset.y * along.x;
             const double beyond = std::abs(glm::dot(offset, along) - 0.5 * length) - 0.5 * length;
             const double covered =
-                std::clamp(0.5 * width + 0.5 - across, 0.0, std::min(1.0, width)) * std::clamp(0.5 - beyond, 0.0, 1.0);
+                (cover.at(across + 0.5 * width) - cover.at(across - 0.5 * width)) * std::clamp(0.5 - beyond, 0.0, 1.0);
             std::uint8_t& texel = picture.at(x, y);
             texel = static_cast<std::uint8_t>(std::lround(texel + covered * (1.0 * grey - texel)));
         }
