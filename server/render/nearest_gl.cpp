@@ -65,7 +65,7 @@ Expected<void> GlNearestSearch::dispatch(const SamplePlan& plan, const GlSampleI
     const unsigned rows = groups(plan.height_px, 8);
     programs_.search.dispatch(columns, rows);
     bool finished = false;
-    const auto read = unfinished_.read([&](std::span<const std::uint32_t> found) { finished = found[0] == 0; });
+    auto read = unfinished_.read([&](std::span<const std::uint32_t> found) { finished = found[0] == 0; });
     if (!read || finished) return read;
 
     columns_.resize(static_cast<std::size_t>(image.width_px()) * static_cast<std::size_t>(image.height_px()));

@@ -91,7 +91,7 @@ public:
         for (int x = 0; x < coarse.width; ++x) {
             const unsigned total = across(weight_, x);
             weights[x] = static_cast<std::uint16_t>(kernels::pulled_weight(total));
-            const auto i = static_cast<std::size_t>(2 * x);
+            const std::size_t i = 2 * static_cast<std::size_t>(x);
             const float sum = depth_sum_[i] + 2.0F * depth_sum_[i + 1] + depth_sum_[i + 2];
             const float nearest = std::max(std::max(nearest_[i], nearest_[i + 1]), nearest_[i + 2]);
             const float farthest = std::min(std::min(farthest_[i], farthest_[i + 1]), farthest_[i + 2]);
@@ -120,7 +120,7 @@ private:
     }
     /// Kernel (1, 2, 1) at column x of the coarser level. Entry i of a sum is column i - 1.
     static unsigned across(const std::vector<std::uint16_t>& sums, int x) {
-        const auto i = static_cast<std::size_t>(2 * x);
+        const std::size_t i = 2 * static_cast<std::size_t>(x);
         return static_cast<unsigned>(sums[i]) + 2U * sums[i + 1] + sums[i + 2];
     }
 
@@ -143,7 +143,7 @@ public:
           column_nearest_(column_.size()),
           column_farthest_(column_.size()) {
         // Whole pairs of columns, of which the last may lie outside.
-        const auto columns = static_cast<std::size_t>(2 * coarse.width);
+        const std::size_t columns = 2 * static_cast<std::size_t>(coarse.width);
         for (auto& sums : channel) sums.resize(columns);
         depth_sum.resize(columns);
         nearest.resize(columns);

@@ -28,7 +28,7 @@ public:
 
     Expected<void> reconstruct(const SamplePlan& plan, const Samples& samples,
                                const ReconstructTarget& target) override {
-        const auto fits = check_fits(kind_, plan);
+        auto fits = check_fits(kind_, plan);
         if (!fits) return fits;
         image_.fill(plan, samples, true);
         if (kind_ == Reconstruction::push_pull)
@@ -57,7 +57,7 @@ public:
 
     Expected<void> reconstruct(const SamplePlan& plan, const Samples& samples,
                                const ReconstructTarget& target) override {
-        const auto fits = check_fits(kind_, plan);
+        auto fits = check_fits(kind_, plan);
         if (!fits) return fits;
         const auto current = CurrentContext::enter(*context_);
         if (!current) return tl::unexpected(current.error());
@@ -67,7 +67,7 @@ public:
         hidden_.bind(5);
         picture_.resize(plan.width_px, plan.height_px);
         picture_.bind(6, 7);
-        const auto dispatched = programs_.dispatch(plan, image_);
+        auto dispatched = programs_.dispatch(plan, image_);
         if (!dispatched) return dispatched;
         return picture_.copy_to(target);
     }
