@@ -136,7 +136,7 @@ private:
         row.low = scratch.box.low();
         row.high = scratch.box.high();
         row.depth_before = eye_depth(depth_before_, eye);
-        row.moves = motion_.accumulates();
+        row.moves = motion_.accumulates() && weights_.knows_motion != 0;
         if (row.moves) {
             row.now = eye_slots(motion_.now(), eye, motion_.to_before(eye));
             row.before = eye_slots(motion_.before(), eye, motion_.to_before(eye));

@@ -32,9 +32,10 @@ struct Parameters {
     glm::ivec4 size;
     kernels::TaaWeights weights;
     std::int32_t moves;
-    float padding;
+    std::int32_t exact;
+    std::array<std::int32_t, 2> padding;
 };
-static_assert(sizeof(Parameters) == 2 * 64 + 16 + 32);
+static_assert(sizeof(Parameters) == 2 * 64 + 16 + 48);
 
 /// Four bytes a word.
 std::vector<std::uint32_t> words_of(std::span<const std::uint8_t> bytes) {
@@ -84,7 +85,7 @@ public:
         const bool continues = std::exchange(has_history_, true) && frame.continues;
         Parameters parameters = parameters_for(world_from_eye_, poses_before);
         motion_.accept(frame, poses_before);
-        if (motion_.accumulates()) {
+        if (motion_.accumulates() && weights_.knows_motion != 0) {
             parameters.moves = 1;
             write_slots(motion_.before(), {});
             write_warps(motion_.to_before(0), motion_.to_before(1));
@@ -96,6 +97,7 @@ public:
             const EyeSamplingMessage& sampling = *frame.sampling[eye];
             parameters.eyes[eye].sampling =
                 glm::ivec4(sampling.phase_px, sampling.tiles_x, static_cast<int>(counts.size()));
+            if (sampling.exact) parameters.exact |= 1 << eye;
             for (const std::uint8_t level : sampling.level) counts.push_back(kLevelCounts[level]);
         }
         parameters_.write(parameters);

@@ -24,8 +24,8 @@ void fill_sampling_row(const kernels::TaaWeights& weights, const EyeSamplingMess
         // A tile is one cell of the rank tile, so its ranks stand in a row.
         const std::uint8_t* rank = ranks + (begin + sampling.phase_px.x) % rank_tile_size_px;
         for (int x = begin; x < end; ++x) {
-            precision[static_cast<std::size_t>(x)] =
-                kernels::new_precision(weights, rank[x - begin], count, hidden[static_cast<std::size_t>(x)] != 0);
+            precision[static_cast<std::size_t>(x)] = kernels::new_precision(
+                weights, rank[x - begin], count, sampling.exact, hidden[static_cast<std::size_t>(x)] != 0);
             slack[static_cast<std::size_t>(x)] = tile_slack;
         }
     }

@@ -26,7 +26,7 @@ void main() {
             high = max(high, neighbour);
         }
     }
-    now.w = new_precision(weights, rank, count, is_hidden(x, y));
+    now.w = new_precision(weights, rank, count, (exact >> eye & 1) != 0, is_hidden(x, y));
 
     float px = float(x) + 0.5;
     float py = float(y) + 0.5;

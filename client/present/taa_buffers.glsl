@@ -11,6 +11,7 @@ layout(std430, binding = 0) readonly buffer Parameters {
     ivec4 size;        // width and height of an eye, edge of the rank tile, whether there is a history
     TaaWeights weights;
     int moves;         // whether Slots, ShownDepth and Warps hold something
+    int exact;         // bit of each eye: whether ranks tell which pixels were traced
 };
 layout(std430, binding = 1) readonly buffer Color { uint color[]; };           // accumulation: new; showing: stable
 layout(std430, binding = 2) readonly buffer Depth { float depth[]; };

@@ -126,19 +126,24 @@ struct TaaWeights {
     float moving_loss;   ///< share of its precision that the history loses when it is resampled half-way
     float disparity_px;  ///< depths whose landings differ by more contradict each other
     float slack;         ///< widening of the colour box, for each pixel of sample distance beyond one
+    float least_slack;   ///< widening of the colour box everywhere; with 255 nothing lies outside
+    int knows_motion;    ///< 0: what moves by itself is accumulated as if it stood still
 };
 
-/// Precision of a pixel of the new frame: rank order in its tile, the tile's count of samples (PROTOCOL.md), and
-/// whether the lens hides it.
-KERNEL float new_precision(KERNEL_IN(TaaWeights) weights, int rank, int count, bool hidden) {
-    float seen = rank < count ? weights.traced : weights.interpolated;
+/// Precision of a pixel of the new frame: rank order in its tile, the tile's count of samples (PROTOCOL.md), whether
+/// the ranks below the count are those that were traced, and whether the lens hides the pixel. Where it is only known
+/// how many were traced, each pixel is worth what they are on average.
+KERNEL float new_precision(KERNEL_IN(TaaWeights) weights, int rank, int count, bool exact, bool hidden) {
+    float traced_share = float(count) / 256.0F;
+    if (exact) traced_share = rank < count ? 1.0F : 0.0F;
+    float seen = weights.traced * traced_share + weights.interpolated * (1.0F - traced_share);
     return hidden ? 0.0F : seen;
 }
 
 /// By how much the colour box is widened in a tile with `count` samples, whose mean distance is 16 / sqrt(count).
 /// Between sparse samples there may be what the box of interpolated colours does not know.
 KERNEL float box_slack(KERNEL_IN(TaaWeights) weights, int count) {
-    return weights.slack * (16.0F / sqrt(float(max(count, 4))) - 1.0F);
+    return weights.least_slack + weights.slack * (16.0F / sqrt(float(max(count, 4))) - 1.0F);
 }
 
 /// How much of the history is to be believed: nothing where the surface that was seen there is another one. Two inverse

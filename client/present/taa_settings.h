@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+
 #include "client/present/taa_kernel.h"
 
 namespace macula {
@@ -11,7 +13,22 @@ inline kernels::TaaWeights default_taa_weights() {
             .limit = 1.0F,
             .moving_loss = 0.5F,
             .disparity_px = 1.5F,
-            .slack = 128.0F};
+            .slack = 128.0F,
+            .least_slack = 0.0F,
+            .knows_motion = 1};
+}
+
+/// What the paper does: the mean of the new picture and of the last one, reprojected by depth as if all stood still.
+/// Whatever was inside the last picture is believed.
+inline kernels::TaaWeights paper_taa_weights() {
+    return {.traced = 1.0F,
+            .interpolated = 1.0F,
+            .limit = 1.0F,
+            .moving_loss = 0.0F,
+            .disparity_px = std::numeric_limits<float>::max(),
+            .slack = 0.0F,
+            .least_slack = 255.0F,
+            .knows_motion = 0};
 }
 
 /// No history: each frame is shown as it came.

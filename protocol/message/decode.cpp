@@ -104,7 +104,8 @@ Expected<EyeSamplingMessage> read_sampling(const wire::EyeFrame& eye) {
     const std::size_t count = static_cast<std::size_t>(eye.tiles_x()) * static_cast<std::size_t>(eye.tiles_y());
     Expected<std::vector<std::uint8_t>> level = unpack_map({eye.level()->data(), eye.level()->size()}, count);
     if (!level) return tl::unexpected(level.error());
-    return EyeSamplingMessage{{eye.phase_x_px(), eye.phase_y_px()}, eye.tiles_x(), eye.tiles_y(), std::move(*level)};
+    return EyeSamplingMessage{
+        {eye.phase_x_px(), eye.phase_y_px()}, eye.tiles_x(), eye.tiles_y(), std::move(*level), eye.exact()};
 }
 
 glm::mat4x3 read(const wire::Affine& m) {

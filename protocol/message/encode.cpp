@@ -75,7 +75,7 @@ Offset<wire::EyeFrame> write_eye(FlatBufferBuilder& builder, const Frame& frame,
     const EyeSamplingMessage& sampling = frame.sampling[eye];
     const auto level = builder.CreateVector(pack_map(sampling.level));
     return wire::CreateEyeFrame(builder, &world_from_eye, &gaze, sampling.phase_px.x, sampling.phase_px.y,
-                                sampling.tiles_x, sampling.tiles_y, level);
+                                sampling.tiles_x, sampling.tiles_y, level, sampling.exact);
 }
 
 wire::Affine to_wire(const glm::mat4x3& m) {

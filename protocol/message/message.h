@@ -84,14 +84,16 @@ struct Track {
     PerEye<GazeSample> gaze;
 };
 
-/// How one eye of a frame was sampled: which pixels were traced. A pixel (x, y) that the lens shows was traced if and
-/// only if rank_tile[(y + phase.y) mod size][(x + phase.x) mod size] < count[tile], with tile column (x + phase.x mod
-/// 16) / 16 and row (y + phase.y mod 16) / 16 of this map.
+/// How one eye of a frame was sampled: which pixels were traced. If `exact`, a pixel (x, y) that the lens shows was
+/// traced if and only if rank_tile[(y + phase.y) mod size][(x + phase.x) mod size] < count[tile], with tile column (x +
+/// phase.x mod 16) / 16 and row (y + phase.y mod 16) / 16 of this map. Otherwise about count of 256 pixels were, and it
+/// is not said which.
 struct EyeSamplingMessage {
     glm::ivec2 phase_px = glm::ivec2(0);
     int tiles_x = 0;
     int tiles_y = 0;
     std::vector<std::uint8_t> level;  ///< index into kLevelCounts (masks/levels.h), row-major, no guard ring
+    bool exact = true;                ///< whether it is said which pixels were traced, or only how many
 };
 
 /// When each stage of a frame ended, server clock; a stage's time is the difference to the one before.

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
+#include <numeric>
 #include <utility>
+#include <vector>
 
 #include <glm/geometric.hpp>
 
@@ -16,6 +19,62 @@ namespace {
 template <class T>
 void resize(Image<T>& image, int width_px, int height_px) {
     if (image.width_px != width_px || image.height_px != height_px) image = Image<T>(width_px, height_px);
+}
+
+EyeSamplingMessage tile_levels(const SamplePlan& plan) {
+    EyeSamplingMessage message;
+    message.phase_px = plan.phase_px;
+    message.tiles_x = plan.tiles_x - 2;
+    message.tiles_y = plan.tiles_y - 2;
+    message.level.reserve(static_cast<std::size_t>(message.tiles_x) * static_cast<std::size_t>(message.tiles_y));
+    for (int y = 1; y <= message.tiles_y; ++y) {
+        const auto row = plan.level.begin() + static_cast<std::ptrdiff_t>(y) * plan.tiles_x;
+        message.level.insert(message.level.end(), row + 1, row + 1 + message.tiles_x);
+    }
+    return message;
+}
+
+/// Level whose density is the nearest in log to `samples` among `pixels`; 0 for none.
+std::uint8_t nearest_level(int samples, int pixels) {
+    if (samples == 0) return 0;
+    const auto squared = [](int value) { return std::int64_t{value} * value; };
+    int level = 1;
+    // The boundary between two levels is the root of their product.
+    while (level < kFullLevel &&
+           squared(samples * kTileArea_px) > squared(pixels) * kLevelCounts[level] * kLevelCounts[level + 1])
+        ++level;
+    return static_cast<std::uint8_t>(level);
+}
+
+EyeSamplingMessage counted_levels(const SamplePlan& plan) {
+    EyeSamplingMessage message;
+    message.exact = false;
+    message.tiles_x = (plan.width_px + kTileEdge_px - 1) / kTileEdge_px;
+    message.tiles_y = (plan.height_px + kTileEdge_px - 1) / kTileEdge_px;
+    const auto tiles = static_cast<std::size_t>(message.tiles_x) * static_cast<std::size_t>(message.tiles_y);
+    std::vector<int> samples(tiles);
+    for (const std::uint32_t address : plan.trace_order) {
+        const SamplePosition at = plan.position[address];
+        if (at.x_px < 0 || at.y_px < 0 || at.x_px >= plan.width_px || at.y_px >= plan.height_px) continue;
+        if (plan.hidden != nullptr && (*plan.hidden)[static_cast<std::size_t>(at.y_px * plan.width_px + at.x_px)] != 0)
+            continue;
+        ++samples[static_cast<std::size_t>(at.y_px / kTileEdge_px * message.tiles_x + at.x_px / kTileEdge_px)];
+    }
+    std::vector<int> visible(tiles);
+    for (int y = 0; y < plan.height_px; ++y) {
+        int* of_row = visible.data() + static_cast<std::ptrdiff_t>(y / kTileEdge_px) * message.tiles_x;
+        for (int tile = 0; tile < message.tiles_x; ++tile) {
+            const int begin = tile * kTileEdge_px;
+            const int pixels = std::min(kTileEdge_px, plan.width_px - begin);
+            of_row[tile] += pixels;
+            if (plan.hidden == nullptr) continue;
+            const std::uint8_t* hidden = plan.hidden->data() + static_cast<std::ptrdiff_t>(y) * plan.width_px + begin;
+            of_row[tile] -= std::accumulate(hidden, hidden + pixels, 0);
+        }
+    }
+    message.level.resize(tiles);
+    for (std::size_t tile = 0; tile < tiles; ++tile) message.level[tile] = nearest_level(samples[tile], visible[tile]);
+    return message;
 }
 
 }  // namespace
@@ -81,16 +140,7 @@ Expected<void> FrameMaker::reconstruct(Picture& picture) {
 }
 
 EyeSamplingMessage sampling_message(const SamplePlan& plan) {
-    EyeSamplingMessage message;
-    message.phase_px = plan.phase_px;
-    message.tiles_x = plan.tiles_x - 2;
-    message.tiles_y = plan.tiles_y - 2;
-    message.level.reserve(static_cast<std::size_t>(message.tiles_x) * static_cast<std::size_t>(message.tiles_y));
-    for (int y = 1; y <= message.tiles_y; ++y) {
-        const auto row = plan.level.begin() + static_cast<std::ptrdiff_t>(y) * plan.tiles_x;
-        message.level.insert(message.level.end(), row + 1, row + 1 + message.tiles_x);
-    }
-    return message;
+    return plan.has_tiles() ? tile_levels(plan) : counted_levels(plan);
 }
 
 }  // namespace macula

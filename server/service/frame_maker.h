@@ -59,7 +59,9 @@ private:
     std::uint64_t frame_index_ = 0;
 };
 
-/// What the client must know of a plan: its levels without the guard ring, and its phase.
+/// What the client must know of a plan: of tiles, the levels without the guard ring, and the phase. Of other plans,
+/// which ranks cannot tell, how densely the visible pixels of each 16x16 tile of the window were traced: the level
+/// nearest in log, 0 where no sample lies.
 EyeSamplingMessage sampling_message(const SamplePlan& plan);
 
 }  // namespace macula

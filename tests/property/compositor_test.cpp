@@ -10,6 +10,7 @@
 
 #include "client/present/make_compositor.h"
 #include "client/present/taa_settings.h"
+#include "masks/levels.h"
 #include "masks/rank_tile.h"
 
 namespace macula {
@@ -81,6 +82,7 @@ protected:
         EXPECT_TRUE(compositor_->show({pose, pose}, 0, picture_));
         return picture_;
     }
+    int shown_at(int x, int y) { return value_of(show({}).at(x, y)); }
     [[nodiscard]] bool traced(int x, int y) const {
         const int rank = rank_tile_.at((x + sampling_.phase_px.x) % 64, (y + sampling_.phase_px.y) % 64);
         return rank < kLevelCounts[sampling_.level[0]];
@@ -130,6 +132,25 @@ TEST_F(Compositing, AStillViewConvergesToTheMeanOfItsTracedPixels) {
         }
     }
     EXPECT_GT(checked, kEdge_px * kEdge_px * 9 / 10);
+}
+
+TEST_F(Compositing, WhereOnlyDensitiesAreKnownAPixelIsWorthTheMean) {
+    TaaWeights weights = default_taa_weights();
+    weights.least_slack = 255.0F;  // the pictures are flat: there is nothing in their boxes
+    for (const int level : {0, 12, kFullLevel}) {
+        begin(weights, static_cast<std::uint8_t>(level));
+        sampling_.exact = false;
+        accumulate({}, [](int, int) { return grey(40); });
+        accumulate({}, [](int, int) { return grey(200); });
+        // Two frames alike: half and half, whatever a pixel is worth.
+        ASSERT_NEAR(shown_at(37, 59), 120, 1) << level;
+        const double precision = 0.02 + (1.0 - 0.02) * kLevelCounts[level] / 256.0;
+        const double known = std::min(2.0 * precision, 1.0);
+        accumulate({}, [](int, int) { return grey(0); });
+        for (const int x : {0, 37, 127}) {
+            ASSERT_NEAR(shown_at(x, 59), 120.0 * known / (known + precision), 1.5) << level;
+        }
+    }
 }
 
 TEST_F(Compositing, AStaticPictureStaysFor200Frames) {

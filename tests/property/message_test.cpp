@@ -42,8 +42,9 @@ bool same(const EyeDisplayMessage& a, const EyeDisplayMessage& b) {
 }
 
 bool same(const EyeSamplingMessage& a, const EyeSamplingMessage& b) {
-    const auto& [phase_px, tiles_x, tiles_y, level] = a;
-    return std::tie(phase_px, tiles_x, tiles_y, level) == std::tie(b.phase_px, b.tiles_x, b.tiles_y, b.level);
+    const auto& [phase_px, tiles_x, tiles_y, level, exact] = a;
+    return std::tie(phase_px, tiles_x, tiles_y, level, exact) ==
+           std::tie(b.phase_px, b.tiles_x, b.tiles_y, b.level, b.exact);
 }
 
 template <class T>

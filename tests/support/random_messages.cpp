@@ -82,6 +82,7 @@ public:
         sampling.tiles_x = integer(1, kMaxTilesAcross);
         sampling.tiles_y = integer(1, kMaxTilesAcross);
         sampling.level = bytes(static_cast<std::size_t>(sampling.tiles_x * sampling.tiles_y), kMaxLevel);
+        sampling.exact = flag();
         return sampling;
     }
 

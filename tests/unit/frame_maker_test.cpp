@@ -2,8 +2,12 @@
 
 #include "server/service/frame_maker.h"
 
+#include <algorithm>
+#include <cstdlib>
+
 #include <gtest/gtest.h>
 
+#include "masks/tile_sampler.h"
 #include "protocol/base/clock.h"
 #include "protocol/message/byte_map.h"
 
@@ -11,6 +15,73 @@ namespace macula {
 namespace {
 
 constexpr int kEdge_px = 64;
+
+/// Made once: it takes longer than a test.
+std::shared_ptr<const TileTables> shared_tables() {
+    static const auto tables = std::make_shared<const TileTables>(make_rank_tile());
+    return tables;
+}
+
+TEST(SamplingMessage, OfTilesIsTheirLevelsWithoutTheGuardRing) {
+    const Display display = load_display("desktop").value();
+    SamplePlan plan;
+    TileSampler(display, kLeftEye, AcuityLaw{}, shared_tables()).plan({.phase_px = {21, 40}}, plan);
+    const EyeSamplingMessage message = sampling_message(plan);
+    EXPECT_TRUE(message.exact);
+    EXPECT_EQ(message.phase_px, glm::ivec2(21, 40));
+    ASSERT_EQ(message.level.size(), static_cast<std::size_t>((plan.tiles_x - 2) * (plan.tiles_y - 2)));
+    EXPECT_EQ(message.level.back(), plan.level[static_cast<std::size_t>((plan.tiles_y - 1) * plan.tiles_x - 2)]);
+}
+
+TEST(SamplingMessage, OfOtherPlansCountsWhatTilesWouldHave) {
+    // A plan of tiles that does not say so: the counts must lead back to its levels.
+    Display display = load_display("vive").value();
+    SamplePlan plan;
+    TileSampler(display, kRightEye, AcuityLaw{}, shared_tables()).plan({}, plan);
+    const std::vector<std::uint8_t> levels = sampling_message(plan).level;
+    SamplePlan untold = plan;
+    untold.level.clear();
+    const EyeSamplingMessage message = sampling_message(untold);
+    EXPECT_FALSE(message.exact);
+    EXPECT_EQ(message.phase_px, glm::ivec2(0));
+    ASSERT_EQ(message.tiles_x * message.tiles_y, plan.tiles_x * plan.tiles_y - 2 * (plan.tiles_x + plan.tiles_y) + 4);
+    ASSERT_EQ(message.level.size(), levels.size());
+    int partial = 0;
+    for (int tile = 0; tile < static_cast<int>(levels.size()); ++tile) {
+        const glm::ivec2 at(tile % message.tiles_x, tile / message.tiles_x);
+        int visible = 0;
+        for (int y = 16 * at.y; y < std::min(16 * at.y + 16, plan.height_px); ++y) {
+            for (int x = 16 * at.x; x < std::min(16 * at.x + 16, plan.width_px); ++x)
+                visible += (*plan.hidden)[static_cast<std::size_t>(y * plan.width_px + x)] == 0 ? 1 : 0;
+        }
+        const int told = message.level[static_cast<std::size_t>(tile)];
+        const int level = levels[static_cast<std::size_t>(tile)];
+        if (visible == 256 || visible == 0 || level == kFullLevel) {
+            ASSERT_EQ(told, level) << tile;
+        } else {
+            // Few pixels may have more or fewer samples than their share.
+            ++partial;
+            ASSERT_LE(std::abs(kLevelCounts[told] - kLevelCounts[level]) * visible / 256, 8) << tile;
+        }
+    }
+    EXPECT_GT(partial, 100);
+}
+
+TEST(SamplingMessage, OfSamplesThatLieTogetherIsFullAtMost) {
+    SamplePlan plan;
+    plan.width_px = 40;
+    plan.height_px = 20;
+    for (int i = 0; i < 600; ++i) {
+        plan.trace_order.push_back(static_cast<std::uint32_t>(plan.position.size()));
+        plan.position.push_back({static_cast<std::int16_t>(i % 16), static_cast<std::int16_t>(i % 5)});
+    }
+    for (const SamplePosition beside : {SamplePosition{-1, 3}, {40, 3}, {33, 20}, {33, -2}, {39, 19}}) {
+        plan.trace_order.push_back(static_cast<std::uint32_t>(plan.position.size()));
+        plan.position.push_back(beside);
+    }
+    // The last tile has 8 x 4 pixels, of which one is traced: 8 of 256.
+    EXPECT_EQ(sampling_message(plan).level, (std::vector<std::uint8_t>{kFullLevel, 0, 0, 0, 0, 4}));
+}
 
 /// One sample in each 4x4 block.
 class GridSampler final : public Sampler {

@@ -244,6 +244,20 @@ TEST(Message, MayLieAtAnyAddress) {
     }
 }
 
+TEST(Message, AFrameThatDoesNotSayIsExact) {
+    // A default takes no bytes on the wire, so a frame whose ranks are exact is a frame from before there was the
+    // field.
+    Frame frame = some_frame();
+    ASSERT_TRUE(frame.sampling[0].exact && frame.sampling[1].exact);
+    const Bytes old = encode_message(frame);
+    frame.sampling[1].exact = false;
+    const Bytes said = encode_message(frame);
+    EXPECT_LT(old.size(), said.size());
+    EXPECT_TRUE(std::get<Frame>(*decode_message(old)).sampling[1].exact);
+    EXPECT_TRUE(std::get<Frame>(*decode_message(said)).sampling[0].exact);
+    EXPECT_FALSE(std::get<Frame>(*decode_message(said)).sampling[1].exact);
+}
+
 TEST(Message, LimitOfLevelsIsThatOfMasks) {
     EXPECT_EQ(kMaxLevel, kFullLevel);
 }
