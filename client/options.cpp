@@ -23,7 +23,8 @@ std::variant<ClientOptions, int> parse_client_options(int argc, char** argv) {
     app.add_option("--headset", options.headset, "Display geometry: vive, desktop, or a file (masks/display.md)")
         ->capture_default_str();
     app.add_option("--sampling", options.sampling,
-                   "Share of pixels to trace: full, or percent (54, 41, 27, 18); empty: the server's choice")
+                   "Which pixels to trace: full, percent (54, 41, 27, 18), or what else the server knows; empty: the "
+                   "server's choice")
         ->capture_default_str();
     app.add_option("--token", options.token, "Secret that the server asks for (default: from the state folder)");
     app.add_option("--fingerprint", options.fingerprint,
@@ -40,9 +41,13 @@ std::variant<ClientOptions, int> parse_client_options(int argc, char** argv) {
     app.add_option("--stats", options.stats, "CSV file that gets one row a frame");
     app.add_option("--summary", options.summary, "File that gets the summary, as lines of name=value");
     app.add_option("--record", options.record, "File that gets the head and eye movement (client/device/RECORDING.md)");
+    app.add_option("--taa", options.taa,
+                   "Temporal anti-aliasing: macula, paper (half and half with the last picture), or off")
+        ->check(CLI::IsMember({"macula", "paper", "off"}))
+        ->capture_default_str();
     app.add_option("--taa-on", options.taa_on,
-                   "Temporal anti-aliasing on gl or cpu, off, or auto: the faster one, measured at start")
-        ->check(CLI::IsMember({"auto", "gl", "cpu", "off"}))
+                   "What runs it and the late reprojection: gl, cpu, or auto: the faster one, measured at start")
+        ->check(CLI::IsMember({"auto", "gl", "cpu"}))
         ->capture_default_str();
     app.add_option("--context", options.context, "GL context: auto, egl (a GPU), surfaceless or osmesa")
         ->check(CLI::IsMember({"auto", "egl", "surfaceless", "osmesa"}))

@@ -25,6 +25,7 @@ struct ClientOptions {
     std::string stats;
     std::string summary;
     std::string record;
+    std::string taa = "macula";
     std::string taa_on = "auto";
     std::string context = "auto";
     double retry_seconds = 30;

@@ -105,15 +105,14 @@ Expected<Credentials> find_credentials(const ClientOptions& options) {
 
 Expected<std::unique_ptr<Compositor>> make_compositor(const ClientOptions& options, const Display& headset,
                                                       const std::function<void(const std::string&)>& log) {
-    if (options.taa_on == "off") {
-        log("temporal anti-aliasing is off");
-        return make_cpu_compositor(headset, no_taa_weights());
-    }
     const auto context = parse_context_kind(options.context);
     if (!context) return tl::unexpected(context.error());
     const TaaOn on = options.taa_on == "gl" ? TaaOn::gl : options.taa_on == "cpu" ? TaaOn::cpu : TaaOn::automatic;
-    auto compositor = choose_compositor(on, *context, headset, default_taa_weights(), log);
-    if (compositor) log("temporal anti-aliasing on " + (*compositor)->name());
+    const kernels::TaaWeights weights = options.taa == "paper" ? paper_taa_weights()
+                                        : options.taa == "off" ? no_taa_weights()
+                                                               : default_taa_weights();
+    auto compositor = choose_compositor(on, *context, headset, weights, log);
+    if (compositor) log("temporal anti-aliasing: " + options.taa + ", on " + (*compositor)->name());
     return compositor;
 }
 

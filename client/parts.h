@@ -31,7 +31,7 @@ Hello make_hello(const Display& headset, const std::string& sampling, const std:
 /// `input_file`.
 Expected<Credentials> find_credentials(const ClientOptions& options);
 
-/// --taa-on and --context; `log` gets the choice. Errors: `option`, `graphics`.
+/// --taa, --taa-on and --context; `log` gets the choice. Errors: `option`, `graphics`.
 Expected<std::unique_ptr<Compositor>> make_compositor(const ClientOptions& options, const Display& headset,
                                                       const std::function<void(const std::string&)>& log);
 

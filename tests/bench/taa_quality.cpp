@@ -86,6 +86,7 @@ std::vector<Config> configs() {
     return {
         {"no accumulation", no_taa_weights()},
         {"default", default_taa_weights()},
+        {"the paper's", paper_taa_weights()},
         {"weights .10 / .10", plain(0.10F, 0.10F)},
         {"weights .50 / .10", plain(0.50F, 0.10F)},
         {"weights .50 / .05", plain(0.50F, 0.05F)},

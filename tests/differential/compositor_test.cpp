@@ -5,6 +5,8 @@
 #include <cstdlib>
 #include <memory>
 #include <random>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -48,6 +50,7 @@ struct Input {
             eye.phase_px = glm::ivec2(random() % 64, random() % 64);
             eye.tiles_x = (display.eye_width_px + 15) / 16 + 1;
             eye.tiles_y = (display.eye_height_px + 15) / 16 + 1;
+            eye.exact = random() % 2 == 0;
             eye.level.clear();
             for (int i = 0; i < eye.tiles_x * eye.tiles_y; ++i) {
                 eye.level.push_back(static_cast<std::uint8_t>(random() % kLevelTotal));
@@ -141,6 +144,104 @@ INSTANTIATE_TEST_SUITE_P(Contexts, GlCompositor, testing::Values(ContextKind::su
                          [](const auto& kind) {
                              return kind.param == ContextKind::surfaceless ? "surfaceless" : "osmesa";
                          });
+
+/// The paper's accumulation, pixel by pixel, as geometry.
+class HalfAndHalf {
+public:
+    explicit HalfAndHalf(const Display& display) : display_(display) {}
+
+    void accumulate(const NewFrame& frame) {
+        const std::vector<glm::vec3> before = std::exchange(picture_, {});
+        for (int y = 0; y < display_.eye_height_px; ++y) {
+            for (int column = 0; column < frame.color->width_px; ++column) {
+                const std::size_t eye = column < display_.eye_width_px ? 0 : 1;
+                const Rgba8 texel = frame.color->at(column, y);
+                const glm::vec3 now(texel & 255U, texel >> 8 & 255U, texel >> 16 & 255U);
+                const float inverse_depth = frame.depth->at(column / 4, y / 4);
+                const int first_column = static_cast<int>(eye) * display_.eye_width_px;
+                const glm::dvec2 was =
+                    place_before(eye, {column - first_column + 0.5, y + 0.5}, inverse_depth, frame.world_from_eye[eye]);
+                const bool known = frame.continues && !before.empty() && was.x >= 0.0 && was.y >= 0.0 &&
+                                   was.x <= display_.eye_width_px && was.y <= display_.eye_height_px;
+                picture_.push_back(known ? 0.5F * (now + sample(before, first_column, was)) : now);
+            }
+        }
+        world_from_eye_ = frame.world_from_eye;
+    }
+    [[nodiscard]] const std::vector<glm::vec3>& picture() const { return picture_; }
+
+private:
+    [[nodiscard]] glm::dvec2 place_before(std::size_t eye, glm::dvec2 at_px, double inverse_depth,
+                                          const Pose& now) const {
+        const Tangents& edge = display_.eyes[eye].tangents;
+        const glm::dvec2 size(display_.eye_width_px, display_.eye_height_px);
+        const glm::dvec2 upper_left(edge.left, edge.top);
+        const glm::dvec2 extent(double{edge.right} - edge.left, double{edge.bottom} - edge.top);
+        const glm::dvec3 here = glm::dvec3(upper_left + at_px / size * extent, -1.0) / inverse_depth;
+        const glm::dquat turn = glm::dquat(world_from_eye_[eye].orientation);
+        const glm::dvec3 world = glm::dquat(now.orientation) * here + glm::dvec3(now.position_m);
+        const glm::dvec3 there = glm::conjugate(turn) * (world - glm::dvec3(world_from_eye_[eye].position_m));
+        return (glm::dvec2(there) / -there.z - upper_left) / extent * size;
+    }
+    [[nodiscard]] glm::vec3 sample(const std::vector<glm::vec3>& picture, int first_column, glm::dvec2 at_px) const {
+        const glm::dvec2 last(display_.eye_width_px - 1, display_.eye_height_px - 1);
+        const glm::dvec2 at = glm::clamp(at_px - 0.5, glm::dvec2(0.0), last);
+        const glm::ivec2 corner = glm::min(glm::ivec2(at), glm::ivec2(last) - 1);
+        const glm::vec2 part(at - glm::dvec2(corner));
+        const auto texel = [&](int dx, int dy) {
+            const int index = (corner.y + dy) * 2 * display_.eye_width_px + first_column + corner.x + dx;
+            return picture[static_cast<std::size_t>(index)];
+        };
+        return glm::mix(glm::mix(texel(0, 0), texel(1, 0), part.x), glm::mix(texel(0, 1), texel(1, 1), part.x), part.y);
+    }
+
+    Display display_;
+    PerEye<Pose> world_from_eye_;
+    std::vector<glm::vec3> picture_;
+};
+
+void expect_half_and_half(Compositor& compositor, Input& input) {
+    HalfAndHalf formula(input.display);
+    ColorImage picture;
+    for (int step = 0; step < 6; ++step) {
+        const NewFrame frame = input.next(step);
+        ASSERT_TRUE(compositor.accumulate(frame));
+        formula.accumulate(frame);
+        ASSERT_TRUE(compositor.show(frame.world_from_eye, frame.display_time_ns, picture));
+        int different = 0;
+        for (std::size_t i = 0; i < picture.texels.size(); ++i) {
+            const Rgba8 texel = picture.texels[i];
+            const glm::vec3 difference =
+                glm::vec3(texel & 255U, texel >> 8 & 255U, texel >> 16 & 255U) - formula.picture()[i];
+            // Noise as it is, a thousandth of a pixel is a quarter of a step.
+            if (std::max({std::abs(difference.x), std::abs(difference.y), std::abs(difference.z)}) > 1.5F) ++different;
+        }
+        // Rounding decides on which side of the picture's edge a pixel falls.
+        EXPECT_LE(different, static_cast<int>(picture.texels.size()) / 1000) << "frame " << step;
+    }
+}
+
+/// A headset that hides nothing.
+Input bare_input() {
+    Input input;
+    for (EyeDisplay& eye : input.display.eyes) eye.visible_outline.clear();
+    return input;
+}
+
+TEST_P(GlCompositor, AveragesHalfAndHalfAsThePaper) {
+    auto context = make_gl_context(GetParam());
+    if (!context) GTEST_SKIP() << context.error().message;
+    Input input = bare_input();
+    auto gl = make_gl_compositor(std::move(*context), input.display, paper_taa_weights());
+    ASSERT_TRUE(gl) << gl.error().message;
+    expect_half_and_half(**gl, input);
+}
+
+TEST(CppCompositor, AveragesHalfAndHalfAsThePaper) {
+    Input input = bare_input();
+    const auto cpu = make_cpu_compositor(input.display, paper_taa_weights());
+    expect_half_and_half(*cpu, input);
+}
 
 }  // namespace
 }  // namespace macula

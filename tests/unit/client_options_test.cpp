@@ -31,6 +31,7 @@ TEST(ClientOptions, CommandLineWinsOverFileWinsOverDefaults) {
     EXPECT_EQ(options.seconds, 7.0);
     EXPECT_EQ(options.gaze, "sim:3");
     EXPECT_EQ(options.displays, (std::vector<std::string>{"null", "png:out"}));
+    EXPECT_EQ(options.taa, "macula");
     EXPECT_EQ(options.taa_on, "auto");
 }
 
@@ -40,9 +41,26 @@ TEST(ClientOptions, SeveralDisplays) {
     EXPECT_EQ(std::get<ClientOptions>(parsed).displays.size(), 2U);
 }
 
+TEST(ClientOptions, EachWayOfTemporalAntiAliasing) {
+    Display display;
+    display.eye_width_px = display.eye_height_px = 64;
+    for (const char* taa : {"macula", "paper", "off"}) {
+        const auto parsed = parse({"--taa", taa, "--taa-on", "cpu"});
+        ASSERT_TRUE(std::holds_alternative<ClientOptions>(parsed)) << taa;
+        std::string logged;
+        const auto compositor =
+            make_compositor(std::get<ClientOptions>(parsed), display, [&](const std::string& line) { logged += line; });
+        ASSERT_TRUE(compositor) << compositor.error().message;
+        EXPECT_NE(logged.find(taa), std::string::npos) << logged;
+        EXPECT_NE(logged.find((*compositor)->name()), std::string::npos) << logged;
+    }
+}
+
 TEST(ClientOptions, MistakesHaveTheirExitCode) {
     for (const std::vector<std::string>& wrong : {std::vector<std::string>{"--no-such-option"},
                                                   {"--taa-on", "fpga"},
+                                                  {"--taa-on", "off"},
+                                                  {"--taa", "cpu"},
                                                   {"--seconds", "-1"},
                                                   {"--frames", "x"},
                                                   {"--config", "/nonexistent.toml"}}) {
