@@ -99,6 +99,7 @@ int main(int argc, char** argv) {
     if (where != "gl") {
         const tbb::global_control one_core(tbb::global_control::max_allowed_parallelism, 1);
         std::vector<Contender> contenders;
+        contenders.reserve(kAll.size() + 1);
         for (const Reconstruction kind : kAll)
             contenders.push_back(contender(to_string(kind), kind == Reconstruction::tiles
                                                                 ? make_cpu_reconstructor(tables)
@@ -115,6 +116,7 @@ int main(int argc, char** argv) {
     }
     if (where != "cpp") {
         std::vector<Contender> contenders;
+        contenders.reserve(kAll.size() + 1);
         for (const Reconstruction kind : kAll) {
             auto made = make_gl(kind, *tables);
             if (!made) {

@@ -30,9 +30,9 @@ unsigned channel(Rgba8 color, unsigned index) {
 /// Plans of tiles and of meshes, dense to nearly empty, some with a hidden border.
 std::vector<Case> small_cases() {
     std::vector<Case> cases;
-    for (std::uint32_t seed = 1; cases.size() < 20; ++seed) {
+    for (std::uint32_t seed = 1; cases.size() < 16; ++seed) {
         Case random = test::random_case(seed);
-        if (random.plan.width_px * random.plan.height_px > 5000) continue;
+        if (random.plan.width_px * random.plan.height_px > 3000) continue;
         if (seed % 3 == 0) test::hide(random.plan, [](int x, int y) { return x < 5 || (x + y) % 7 == 0; });
         cases.push_back(std::move(random));
     }
@@ -67,8 +67,7 @@ void expect_made_of_nearest(const Case& from, const Picture& picture, std::size_
     for (int y = 0; y < from.plan.height_px; ++y)
         for (int x = 0; x < from.plan.width_px; ++x) {
             SCOPED_TRACE("pixel " + std::to_string(x) + ", " + std::to_string(y));
-            const bool hidden =
-                from.plan.hidden && (*from.plan.hidden)[static_cast<std::size_t>(y * from.plan.width_px + x)] != 0;
+            const bool hidden = test::is_hidden(from.plan, x, y);
             auto found = hidden ? std::vector<Found>{} : nearest_by_brute_force(from, x, y, wanted);
             if (found.empty()) {
                 ASSERT_EQ(picture.color.at(x, y), 0xFF000000U);
@@ -235,8 +234,7 @@ TEST(PushPull, FollowsTheRule) {
         int other_depths = 0;
         for (int y = 0; y < random.plan.height_px; ++y)
             for (int x = 0; x < random.plan.width_px; ++x) {
-                const bool hidden = random.plan.hidden &&
-                                    (*random.plan.hidden)[static_cast<std::size_t>(y * random.plan.width_px + x)] != 0;
+                const bool hidden = test::is_hidden(random.plan, x, y);
                 const PushPullRule::Pixel expected = hidden ? PushPullRule::Pixel{} : rule.at(x, y);
                 for (unsigned c = 0; c < 3; ++c)
                     ASSERT_EQ(channel(picture.color.at(x, y), c), expected.color[c])

@@ -23,6 +23,12 @@ void hide(SamplePlan& plan, Hidden&& hidden) {
     plan.hidden = std::make_shared<const std::vector<std::uint8_t>>(std::move(pixels));
 }
 
+inline bool is_hidden(const SamplePlan& plan, int x, int y) {
+    const std::size_t pixel =
+        static_cast<std::size_t>(y) * static_cast<std::size_t>(plan.width_px) + static_cast<std::size_t>(x);
+    return plan.hidden && (*plan.hidden)[pixel] != 0;
+}
+
 /// A mesh plan of scattered sites, in the window and around it, as far as kMeshReach_px; `share` of the pixels.
 inline Case mesh_case(std::uint32_t seed, glm::ivec2 size, double share) {
     std::mt19937 random(seed);
