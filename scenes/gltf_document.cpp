@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 #include <exception>
 #include <filesystem>
 #include <fstream>
@@ -11,64 +10,15 @@
 #include <system_error>
 #include <utility>
 
+#include "protocol/base/glb.h"
+
 namespace macula {
 namespace {
-
-/// tinygltf turns `extras` into values recursively; deeper JSON would exhaust its stack.
-constexpr int kMaxJsonDepth = 128;
 
 constexpr std::array<std::string_view, 12> kSupportedExtensions = {
     "EXT_texture_webp",    "KHR_lights_punctual",  "KHR_materials_clearcoat", "KHR_materials_emissive_strength",
     "KHR_materials_ior",   "KHR_materials_sheen",  "KHR_materials_specular",  "KHR_materials_transmission",
     "KHR_materials_unlit", "KHR_materials_volume", "KHR_mesh_quantization",   "KHR_texture_transform"};
-
-int json_depth(std::string_view json) {
-    int depth = 0;
-    int deepest = 0;
-    bool in_string = false;
-    for (std::size_t i = 0; i < json.size(); ++i) {
-        const char c = json[i];
-        if (in_string) {
-            if (c == '\\') ++i;
-            if (c == '"') in_string = false;
-        } else if (c == '"') {
-            in_string = true;
-        } else if (c == '{' || c == '[') {
-            deepest = std::max(deepest, ++depth);
-        } else if (c == '}' || c == ']') {
-            --depth;
-        }
-    }
-    return deepest;
-}
-
-std::uint32_t little_endian_32(std::span<const std::uint8_t> bytes, std::size_t at) {
-    return static_cast<std::uint32_t>(bytes[at]) | static_cast<std::uint32_t>(bytes[at + 1]) << 8U |
-           static_cast<std::uint32_t>(bytes[at + 2]) << 16U | static_cast<std::uint32_t>(bytes[at + 3]) << 24U;
-}
-
-bool is_glb(std::span<const std::uint8_t> bytes) {
-    return bytes.size() >= 4 && std::memcmp(bytes.data(), "glTF", 4) == 0;
-}
-
-/// The JSON of a GLB container all of whose chunks lie inside the file: tinygltf forgets the second chunk's header when
-/// it compares sizes.
-Expected<std::string_view> glb_json(std::span<const std::uint8_t> bytes, const std::string& name) {
-    constexpr std::size_t kHeader = 12;
-    constexpr std::size_t kChunkHeader = 8;
-    const auto refuse = [&name](const char* what) { return fail(ErrorCode::input_file, name + ": " + what); };
-    if (bytes.size() < kHeader + kChunkHeader) return refuse("the GLB header is cut off");
-    if (little_endian_32(bytes, 4) != 2) return refuse("the GLB container is not of version 2");
-    const std::size_t length = little_endian_32(bytes, 8);
-    if (length > bytes.size() || length < kHeader + kChunkHeader) return refuse("the GLB file is cut off");
-    const std::size_t json_bytes = little_endian_32(bytes, kHeader);
-    if (json_bytes > length - kHeader - kChunkHeader) return refuse("the GLB JSON chunk is cut off");
-    const std::size_t second = kHeader + kChunkHeader + json_bytes;
-    if (second != length &&
-        (length - second < kChunkHeader || little_endian_32(bytes, second) > length - second - kChunkHeader))
-        return refuse("the GLB binary chunk is cut off");
-    return std::string_view(reinterpret_cast<const char*>(bytes.data()) + kHeader + kChunkHeader, json_bytes);
-}
 
 /// What tinygltf's file callbacks may do.
 struct FileAccess {
@@ -176,8 +126,8 @@ Expected<GltfDocument> read_gltf_document(std::span<const std::uint8_t> bytes, c
     if (bytes.size() > limits.file_bytes) return refuse("larger than " + std::to_string(limits.file_bytes) + " bytes");
     std::string_view json(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     if (is_glb(bytes)) {
-        const Expected<std::string_view> chunk = glb_json(bytes, name);
-        if (!chunk) return tl::unexpected(chunk.error());
+        const Expected<std::string_view> chunk = glb_json(bytes);
+        if (!chunk) return refuse(chunk.error().message);
         json = *chunk;
     }
     if (json_depth(json) > kMaxJsonDepth) return refuse("the JSON is nested too deeply");

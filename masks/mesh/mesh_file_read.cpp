@@ -13,6 +13,8 @@
 
 #include <tiny_gltf.h>
 
+#include "protocol/base/glb.h"
+
 namespace macula {
 namespace {
 
@@ -20,47 +22,6 @@ using Position = std::array<float, 3>;
 
 /// A GLB file counts its bytes in 32 bits.
 constexpr std::size_t kMaxFile_bytes = std::numeric_limits<std::uint32_t>::max();
-/// tinygltf turns `extras` into values recursively; deeper JSON would exhaust its stack.
-constexpr int kMaxJsonDepth = 64;
-
-std::uint32_t little_endian_32(std::span<const std::uint8_t> bytes, std::size_t at) {
-    return static_cast<std::uint32_t>(bytes[at]) | static_cast<std::uint32_t>(bytes[at + 1]) << 8U |
-           static_cast<std::uint32_t>(bytes[at + 2]) << 16U | static_cast<std::uint32_t>(bytes[at + 3]) << 24U;
-}
-
-/// The JSON of a GLB file of two chunks that fill it; null if it is anything else. tinygltf forgets the second chunk's
-/// header when it compares sizes.
-std::string_view json_chunk(std::span<const std::uint8_t> bytes) {
-    constexpr std::size_t kHeader = 12;
-    constexpr std::size_t kChunkHeader = 8;
-    if (bytes.size() < kHeader + 2 * kChunkHeader || std::memcmp(bytes.data(), "glTF", 4) != 0) return {};
-    if (little_endian_32(bytes, 4) != 2 || little_endian_32(bytes, 8) != bytes.size()) return {};
-    const std::size_t json = little_endian_32(bytes, kHeader);
-    if (json > bytes.size() - kHeader - 2 * kChunkHeader) return {};
-    const std::size_t second = kHeader + kChunkHeader + json;
-    if (little_endian_32(bytes, second) != bytes.size() - second - kChunkHeader) return {};
-    return {reinterpret_cast<const char*>(bytes.data()) + kHeader + kChunkHeader, json};
-}
-
-int json_depth(std::string_view json) {
-    int depth = 0;
-    int deepest = 0;
-    bool in_string = false;
-    for (std::size_t i = 0; i < json.size(); ++i) {
-        const char c = json[i];
-        if (in_string) {
-            if (c == '\\') ++i;
-            if (c == '"') in_string = false;
-        } else if (c == '"') {
-            in_string = true;
-        } else if (c == '{' || c == '[') {
-            deepest = std::max(deepest, ++depth);
-        } else if (c == '}' || c == ']') {
-            --depth;
-        }
-    }
-    return deepest;
-}
 
 /// Takes a parsed file apart; keeps the first fault.
 class MeshReader {
@@ -207,9 +168,10 @@ std::string parse(std::span<const std::uint8_t> bytes, tinygltf::Model& model) {
 
 Expected<SampleMesh> read_mesh_from_memory(std::span<const std::uint8_t> bytes, const std::string& name) {
     const auto refuse = [&name](const std::string& what) { return fail(ErrorCode::input_file, name + ": " + what); };
-    const std::string_view json = json_chunk(bytes);
-    if (json.empty()) return refuse("not a whole binary glTF 2.0 file (.glb)");
-    if (json_depth(json) > kMaxJsonDepth) return refuse("the JSON is nested too deeply");
+    if (!is_glb(bytes)) return refuse("not a binary glTF 2.0 file (.glb)");
+    const Expected<std::string_view> json = glb_json(bytes);
+    if (!json) return refuse(json.error().message);
+    if (json_depth(*json) > kMaxJsonDepth) return refuse("the JSON is nested too deeply");
     tinygltf::Model model;
     const std::string complaint = parse(bytes, model);
     if (!complaint.empty()) return refuse(complaint);
