@@ -82,7 +82,7 @@ done
 [ -n "$port" ] || { echo "demo: the server did not start within 60 s, see $out/server.log" >&2; exit 4; }
 cat "$out/server.log"
 
-step "Client: $headset, $sampling % sampling, $gaze, $seconds s"
+step "Client: $headset, sampling $sampling, $gaze, $seconds s"
 status=0
 "$client" --connect "127.0.0.1:$port" --state "$out/state" --gaze "$gaze" --seconds "$seconds" \
     --headset "$headset" --sampling "$sampling" \

@@ -110,6 +110,27 @@ protected:
     std::string port_;
 };
 
+TEST_F(EndToEnd, AClientChoosesHowItsFramesAreMade) {
+    const auto server = start_server("0", {"--mesh-cache", file("meshes")});
+    for (const char* method : {"mesh:27/raster", "mesh:27/table", "layers:27", "tiles:18/push-pull"}) {
+        const auto client = start_client({"--frames", "5", "--sampling", method, "--summary", file("summary")});
+        expect_exit(*client, 0);
+        auto summary = read_summary(file("summary"));
+        EXPECT_EQ(summary["frames"], 5.0) << method;
+        EXPECT_EQ(summary["frames_undecodable"], 0.0) << method;
+        EXPECT_GT(summary["traced_share"], 0.1) << method;
+        EXPECT_LT(summary["traced_share"], 0.4) << method;
+    }
+    // Both mesh methods share one mesh, which lies in the cache.
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(file("meshes")), {}), 1);
+
+    const auto refused = start_client({"--frames", "5", "--sampling", "layers:27/raster"});
+    expect_exit(*refused, ErrorCode::refused);
+    EXPECT_NE(refused->output().find("only the sampler mesh"), std::string::npos) << refused->output();
+    server->signal(SIGTERM);
+    expect_exit(*server, 0);
+}
+
 TEST_F(EndToEnd, FramesAreShownSavedAndCounted) {
     const auto server = start_server();
     const auto client = start_client({"--frames", "30", "--display", "png:" + file("frames"), "--stats",
