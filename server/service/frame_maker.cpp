@@ -56,9 +56,9 @@ EyeSamplingMessage counted_levels(const SamplePlan& plan) {
     for (const std::uint32_t address : plan.trace_order) {
         const SamplePosition at = plan.position[address];
         if (at.x_px < 0 || at.y_px < 0 || at.x_px >= plan.width_px || at.y_px >= plan.height_px) continue;
-        if (plan.hidden != nullptr && (*plan.hidden)[static_cast<std::size_t>(at.y_px * plan.width_px + at.x_px)] != 0)
-            continue;
-        ++samples[static_cast<std::size_t>(at.y_px / kTileEdge_px * message.tiles_x + at.x_px / kTileEdge_px)];
+        const int pixel = at.y_px * plan.width_px + at.x_px;
+        if (plan.hidden != nullptr && (*plan.hidden)[pixel] != 0) continue;
+        ++samples[at.y_px / kTileEdge_px * message.tiles_x + at.x_px / kTileEdge_px];
     }
     std::vector<int> visible(tiles);
     for (int y = 0; y < plan.height_px; ++y) {

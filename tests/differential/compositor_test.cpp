@@ -190,7 +190,7 @@ private:
         const glm::vec2 part(at - glm::dvec2(corner));
         const auto texel = [&](int dx, int dy) {
             const int index = (corner.y + dy) * 2 * display_.eye_width_px + first_column + corner.x + dx;
-            return picture[static_cast<std::size_t>(index)];
+            return picture[index];
         };
         return glm::mix(glm::mix(texel(0, 0), texel(1, 0), part.x), glm::mix(texel(0, 1), texel(1, 1), part.x), part.y);
     }

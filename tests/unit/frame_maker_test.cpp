@@ -29,8 +29,8 @@ TEST(SamplingMessage, OfTilesIsTheirLevelsWithoutTheGuardRing) {
     const EyeSamplingMessage message = sampling_message(plan);
     EXPECT_TRUE(message.exact);
     EXPECT_EQ(message.phase_px, glm::ivec2(21, 40));
-    ASSERT_EQ(message.level.size(), static_cast<std::size_t>((plan.tiles_x - 2) * (plan.tiles_y - 2)));
-    EXPECT_EQ(message.level.back(), plan.level[static_cast<std::size_t>((plan.tiles_y - 1) * plan.tiles_x - 2)]);
+    ASSERT_EQ(message.level.size(), static_cast<std::size_t>(plan.tiles_x - 2) * (plan.tiles_y - 2));
+    EXPECT_EQ(message.level.back(), plan.level[(plan.tiles_y - 1) * plan.tiles_x - 2]);
 }
 
 TEST(SamplingMessage, OfOtherPlansCountsWhatTilesWouldHave) {
@@ -52,10 +52,10 @@ TEST(SamplingMessage, OfOtherPlansCountsWhatTilesWouldHave) {
         int visible = 0;
         for (int y = 16 * at.y; y < std::min(16 * at.y + 16, plan.height_px); ++y) {
             for (int x = 16 * at.x; x < std::min(16 * at.x + 16, plan.width_px); ++x)
-                visible += (*plan.hidden)[static_cast<std::size_t>(y * plan.width_px + x)] == 0 ? 1 : 0;
+                visible += (*plan.hidden)[y * plan.width_px + x] == 0 ? 1 : 0;
         }
-        const int told = message.level[static_cast<std::size_t>(tile)];
-        const int level = levels[static_cast<std::size_t>(tile)];
+        const int told = message.level[tile];
+        const int level = levels[tile];
         if (visible == 256 || visible == 0 || level == kFullLevel) {
             ASSERT_EQ(told, level) << tile;
         } else {
