@@ -23,8 +23,8 @@ std::variant<ClientOptions, int> parse_client_options(int argc, char** argv) {
     app.add_option("--headset", options.headset, "Display geometry: vive, desktop, or a file (masks/display.md)")
         ->capture_default_str();
     app.add_option("--sampling", options.sampling,
-                   "Which pixels to trace: full, percent (54, 41, 27, 18), or what else the server knows; empty: the "
-                   "server's choice")
+                   "How the server makes frames: full, percent (54, 41, 27, 18), mesh:paper-27/raster, layers:27, ... "
+                   "(server/METHODS.md); empty: the server's choice")
         ->capture_default_str();
     app.add_option("--token", options.token, "Secret that the server asks for (default: from the state folder)");
     app.add_option("--fingerprint", options.fingerprint,
