@@ -126,8 +126,8 @@ std::vector<Triangle> triangulate(const std::vector<SamplePosition>& site) {
     for (const std::uint32_t i : order) sorted.push_back(site[i]);
 
     LinkedTriangles mesh = sweep(sorted);
-    // Boost decides exactly which sites turn to the right, so these triangles are a triangulation. But it orders circles
-    // by rounded places, which decides a diagonal where four sites are almost cocircular.
+    // Boost decides exactly which sites turn to the right, so these triangles are a triangulation. But it orders
+    // circles by rounded places, which decides a diagonal where four sites are almost cocircular.
     make_delaunay(mesh, sorted);
     for (Triangle& t : mesh.triangle)
         for (std::uint32_t& corner : t) corner = order[corner];

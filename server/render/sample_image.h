@@ -22,8 +22,8 @@ struct SampleImage {
     std::vector<Rgba8> color;                ///< row-major; meaningless where there is no sample
     std::vector<float> inverse_depth_per_m;  ///< -1: no sample, if the image was cleared
 
-    /// Puts the traced samples of a plan whose samples lie at pixel centres, on the shared thread pool. Where `clear` is
-    /// false, pixels without a sample keep what they held (zeros at first): for readers that know where samples are.
+    /// Puts the traced samples of a plan whose samples lie at pixel centres, on the shared thread pool. Where `clear`
+    /// is false, pixels without a sample keep what they held (zeros at first): for readers that know where samples are.
     /// 1.3 M samples of an eye of 1512x1680 take about 5 ms on one core, which is what memory takes.
     void fill(const SamplePlan& plan, const Samples& samples, bool clear);
 

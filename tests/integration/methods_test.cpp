@@ -145,9 +145,9 @@ double psnr_db(const Display& display, const ColorImage& a, const ColorImage& b)
     return 10.0 * std::log10(255.0 * 255.0 * count / std::max(sum, 1e-9));
 }
 
-/// Rasterisers may evaluate a triangle's plane from the picture's corner, and software GL does: far from there, rounding
-/// costs some parts in ten thousand even at the triangle's own corners. Colours are rounded to whole numbers afterwards
-/// and show nothing of it.
+/// Rasterisers may evaluate a triangle's plane from the picture's corner, and software GL does: far from there,
+/// rounding costs some parts in ten thousand even at the triangle's own corners. Colours are rounded to whole numbers
+/// afterwards and show nothing of it.
 void expect_same_depth(const InverseDepthImage& result, const InverseDepthImage& expected, bool rounded,
                        const std::string& name) {
     if (!rounded) {
