@@ -150,8 +150,11 @@ Expected<void> TlsConnection::send(std::span<const std::byte> body, milliseconds
 
 void TlsConnection::write() {
     if (lingering_) return;
+    writing_ = true;
     asio::async_write(stream_, asio::buffer(outgoing_), [self = shared_from_this()](AsioError error, std::size_t) {
+        self->writing_ = false;
         if (error) return self->break_off(self->describe(error, true));
+        if (self->lingering_) self->end_sending();
         {
             const std::lock_guard lock(self->mutex_);
             self->written_ = true;
@@ -170,21 +173,19 @@ void TlsConnection::close() {
     asio::post(io_, [self = shared_from_this()] { self->linger(); });
 }
 
-/// Ends our direction and reads on until the peer ends his: a socket closed with unread data in it resets the
-/// connection, and the peer would lose what was sent last, which is the reason for closing.
+/// Ends our direction, after a message that is under way, and reads on until the peer ends his: a socket closed with
+/// unread data in it resets the connection, and the peer would lose what was sent last, which is the reason for closing.
 void TlsConnection::linger() {
     if (lingering_ || !socket().is_open()) return;
     lingering_ = true;
-    bool half_sent = false;
-    {
-        const std::lock_guard lock(mutex_);
-        half_sent = !written_;
-    }
-    if (half_sent) return abort();
+    close_after(kLinger);
+    if (!writing_) end_sending();
+    if (!reading_) drain();
+}
+
+void TlsConnection::end_sending() {
     AsioError ignored;
     socket().shutdown(tcp::socket::shutdown_send, ignored);
-    close_after(kLinger);
-    if (!reading_) drain();
 }
 
 /// Discards what arrives, encrypted as it is.

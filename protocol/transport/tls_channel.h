@@ -62,6 +62,7 @@ private:
     void read_body();
     void write();
     void linger();
+    void end_sending();
     void drain();
     void close_after(std::chrono::milliseconds delay);
     void break_off(Error error);
@@ -75,6 +76,7 @@ private:
     std::array<unsigned char, 4> length_{};
     Bytes incoming_;
     bool reading_ = false;
+    bool writing_ = false;
     bool lingering_ = false;
 
     std::mutex mutex_;  ///< guards what follows, except outgoing_ while it is being written

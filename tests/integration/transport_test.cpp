@@ -352,6 +352,33 @@ TEST_F(TransportTest, LastMessageBeforeCloseArrivesThoughThePeerIsSending) {
     }
 }
 
+TEST_F(TransportTest, LastMessageBeforeCloseArrivesThoughAnotherThreadIsStillSending) {
+    const Bytes last = random_bytes(10, 5);
+    for (int round = 0; round < 10; ++round) {
+        auto [client, server] = pair();
+        std::thread asking([&peer = *client] {
+            while (peer.send(Bytes(2000), kPatience)) {
+            }
+        });
+        // The first is fetched ahead of receive(); the last one waits in the system.
+        EXPECT_TRUE(server->send(Bytes(5), kPatience));
+        EXPECT_TRUE(server->send(last, kPatience));
+        // Nobody reads, so that one of these gets stuck.
+        std::thread answering([&mine = *server] {
+            while (mine.send(Bytes(1'000'000), kPatience)) {
+            }
+        });
+        std::this_thread::sleep_for(milliseconds(5));
+        server->close();
+        std::this_thread::sleep_for(milliseconds(5));
+        EXPECT_EQ(client->receive(kPatience), Bytes(5));
+        EXPECT_TRUE(is(client->receive(kPatience), last)) << "round " << round;
+        client->close();
+        asking.join();
+        answering.join();
+    }
+}
+
 TEST_F(TransportTest, ChannelsOutliveTheListener) {
     const auto [client, server] = pair();
     listener_.reset();
