@@ -10,8 +10,7 @@ macula_test(kernels_test
 macula_test(reflectance_test
     SOURCES unit/area_light_kernel_test.cpp unit/brdf_kernel_test.cpp unit/fresnel_kernel_test.cpp
             unit/layers_kernel_test.cpp property/reflectance_test.cpp
-    LINK macula_kernels
-    LABELS fast)
+    LINK macula_kernels)
 
 macula_test(tracer_test
     SOURCES unit/tracer_motion_test.cpp unit/tracer_test.cpp differential/tracer_test.cpp

@@ -2,5 +2,4 @@
 macula_test(stability_test
     SOURCES golden/stability_large_triangles_test.cpp golden/stability_reflection_test.cpp
             golden/stability_scale_test.cpp golden/stability_shadow_test.cpp golden/stability_triangles_test.cpp
-    LINK macula_tracer macula_scenes
-    LABELS fast)
+    LINK macula_tracer macula_scenes)

@@ -157,19 +157,19 @@ TEST(GltfFuzz, MutationsOfBytesNeitherCrashNorBreakPromises) {
     std::mt19937 random(seed());
     int loaded = 0;
     for (const Bytes& file : corpus())
-        for (unsigned i = 0; i < mutations(1000); ++i) {
+        for (unsigned i = 0; i < mutations(500); ++i) {
             const Bytes mutated = mutate(file, random);
             EXPECT_EQ(LLVMFuzzerTestOneInput(mutated.data(), mutated.size()), 0);
             if (i % 10 == 0) loaded += loads(mutated) ? 1 : 0;
         }
-    EXPECT_GT(loaded, 20) << "mutations have to reach the code behind the parser";
+    EXPECT_GT(loaded, 10) << "mutations have to reach the code behind the parser";
 }
 
 TEST(GltfFuzz, MutationsOfMeaningNeitherCrashNorBreakPromises) {
     std::mt19937 random(seed());
     const GltfBuilder all = gltf_with_everything();
     int loaded = 0;
-    for (unsigned i = 0; i < mutations(2000); ++i) {
+    for (unsigned i = 0; i < mutations(700); ++i) {
         GltfBuilder mutated = all;
         mutate(mutated.json, random);
         mutate_buffer(mutated.buffer, random);
@@ -177,7 +177,7 @@ TEST(GltfFuzz, MutationsOfMeaningNeitherCrashNorBreakPromises) {
         EXPECT_EQ(LLVMFuzzerTestOneInput(file.data(), file.size()), 0);
         if (i % 10 == 0) loaded += loads(file) ? 1 : 0;
     }
-    EXPECT_GT(loaded, 20) << "mutations have to reach the code behind the parser";
+    EXPECT_GT(loaded, 10) << "mutations have to reach the code behind the parser";
 }
 
 }  // namespace
