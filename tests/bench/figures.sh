@@ -30,6 +30,18 @@ step "Plan of one eye, one core"
 $bin/plan_bench --benchmark_repetitions=5 --benchmark_report_aggregates_only --benchmark_filter='plan/vive' 2>/dev/null
 step "Reconstruction of colour and depth, one eye 1512x1680, C++ path, one core"
 $bin/reconstruct_bench --benchmark_filter='cpp/.*threads:1' 2>/dev/null
+step "Masks and meshes: making, triangulating, files; reading and planning"
+$bin/mask_bench 2>/dev/null
+$bin/mesh_bench 2>/dev/null
+$bin/mesh_plan_bench 2>/dev/null
+repeated="--benchmark_repetitions=5 --benchmark_enable_random_interleaving=true"
+step "Reconstructions of meshes and tiles, one eye 1512x1680, one core"
+# shellcheck disable=SC2086 # options, not one word
+$bin/mesh_reconstruct_bench $repeated --benchmark_filter='(cpp/(tiles|table|raster)/percent:(54|27)/threads:1|gl/(table|raster)/percent:27)' 2>/dev/null
+$bin/scattered_bench 27 9
+step "Published samplers on grids: plan and reconstruction of one eye, one core"
+# shellcheck disable=SC2086
+$bin/rivals_bench $repeated --benchmark_filter='cpp|plan' 2>/dev/null
 step "Demo: desktop, 18 %, client and server on this machine"
 deploy/demo.sh --seconds 20 --out "$PWD/out/figures" | sed -n '/^frames shown/,/gaze_to_frame/p'
 step "Server memory: Bunny Box, one client, vive (peak resident size)"
