@@ -174,7 +174,8 @@ void TlsConnection::close() {
 }
 
 /// Ends our direction, after a message that is under way, and reads on until the peer ends his: a socket closed with
-/// unread data in it resets the connection, and the peer would lose what was sent last, which is the reason for closing.
+/// unread data in it resets the connection, and the peer would lose what was sent last, which is the reason for
+/// closing.
 void TlsConnection::linger() {
     if (lingering_ || !socket().is_open()) return;
     lingering_ = true;
