@@ -26,6 +26,7 @@ public:
                 break;
             case kTileArea_px:
                 copy_full(tile, pixels);
+                black_out_hidden({tile_x, tile_y}, pixels);
                 break;
             default:
                 interpolate(tile, {tile_x, tile_y}, pixels);
@@ -49,11 +50,31 @@ private:
         Patch palette;
         const bool complete = fetch(tile, cell, palette);
         blend(cell, palette, pixels);
+        black_out_hidden(place, pixels);
         if (complete) return;
         for (int i = 0; i < kTileArea_px; ++i)
             if (pixels.inverse_depth[i] < 0.0F)
                 kernels::reconstruct_pixel(source_, view_, place, {i % kTileEdge_px, i / kTileEdge_px}, pixels.color[i],
                                            pixels.inverse_depth[i]);
+    }
+
+    /// Hidden pixels have no samples around them, and would search for some in vain.
+    void black_out_hidden(glm::ivec2 place, Patch& pixels) const {
+        if (source_.plan.hidden == nullptr) return;
+        const glm::ivec2 top_left = view_.origin_px + kTileEdge_px * place;
+        const glm::ivec2 first = glm::max(glm::ivec2(0), -top_left);
+        const glm::ivec2 last = glm::min(glm::ivec2(kTileEdge_px), view_.size_px - top_left);
+        for (int y = first.y; y < last.y; ++y) {
+            const std::uint8_t* const hidden = source_.plan.hidden->data() +
+                                               static_cast<std::ptrdiff_t>(top_left.y + y) * view_.size_px.x +
+                                               top_left.x;
+            for (int x = first.x; x < last.x; ++x) {
+                if (hidden[x] == 0) continue;
+                const auto i = static_cast<std::size_t>(y * kTileEdge_px + x);
+                pixels.color[i] = kernels::kOpaqueBlack;
+                pixels.inverse_depth[i] = 0.0F;
+            }
+        }
     }
 
     /// Gathers the samples of a tile's palette; a missing one gets inverse depth -1. False: some are missing.

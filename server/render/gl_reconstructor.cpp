@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "kernel_text/blend.h"
+#include "kernel_text/picture_buffers.h"
 #include "kernel_text/reconstruct.h"
 #include "kernel_text/reconstruct_buffers.h"
 #include "kernel_text/reconstruct_main.h"
@@ -73,6 +74,7 @@ private:
         colors_.write(std::span(samples.color).first(addresses));
         inverse_depths_.write(std::span(samples.inverse_depth_per_m).first(addresses));
         view_.write(reconstruct_view(plan));
+        hidden_.update(plan);
         picture_.resize(plan.width_px, plan.height_px);
     }
     void bind() const {
@@ -81,8 +83,9 @@ private:
         tiles_.bind(2);
         colors_.bind(3);
         inverse_depths_.bind(4);
-        view_.bind(5);
+        hidden_.bind(5);
         picture_.bind(6, 7);
+        view_.bind(8);
     }
 
     // Members below the context belong to it and go first.
@@ -94,6 +97,7 @@ private:
     StorageBuffer<Rgba8> colors_{*context_};
     StorageBuffer<float> inverse_depths_{*context_};
     StorageBuffer<ReconstructView> view_{*context_};
+    GlHiddenPixels hidden_{*context_};
     GlPicture picture_{*context_};
     std::vector<glm::uvec2> tile_scratch_;
 };
@@ -105,8 +109,8 @@ Expected<std::unique_ptr<Reconstructor>> make_gl_reconstructor(std::unique_ptr<G
     GlContext& used = *context;
     const auto current = CurrentContext::enter(used);
     if (!current) return tl::unexpected(current.error());
-    auto program = ComputeProgram::build(
-        used, std::array{reconstruct_buffers_text, blend_text, reconstruct_text, reconstruct_main_text});
+    auto program = ComputeProgram::build(used, std::array{reconstruct_buffers_text, picture_buffers_text, blend_text,
+                                                          reconstruct_text, reconstruct_main_text});
     if (!program) return tl::unexpected(program.error());
     return std::make_unique<GlReconstructor>(std::move(context), std::move(*program), tables);
 }

@@ -23,7 +23,7 @@ struct ReconstructTarget {
 };
 
 /// Turns the samples of one eye into a full picture: colour (in the display's coding) and inverse depth, each
-/// interpolated between three samples. Pixels that no sample can reach (hidden area) become black at depth 0.
+/// interpolated between samples. Hidden pixels, and those that no sample can reach, become black at depth 0.
 class Reconstructor {
 public:
     Reconstructor() = default;

@@ -57,6 +57,8 @@ public:
 
     /// The samples that a pixel is made of, the largest weight first; empty: none reaches it.
     [[nodiscard]] std::vector<Weighted> samples_of(int x, int y) const {
+        if (plan_.hidden != nullptr && (*plan_.hidden)[static_cast<std::size_t>(y * plan_.width_px + x)] != 0)
+            return {};
         const glm::ivec2 place = (glm::ivec2(x, y) - plan_.origin_px) / kTileEdge_px;
         const glm::ivec2 corner = plan_.origin_px + kTileEdge_px * place;
         const int pixel = kTileEdge_px * (y - corner.y) + x - corner.x;

@@ -91,6 +91,10 @@ inline Case random_case(std::uint32_t seed) {
             if (draw(0, 3) >= steadiness) last_depth = depth(random);
             return last_depth * (1.0F + 0.1F * depth(random) / 4.0F);
         });
+    if (seed % 2 == 0) return result;
+    std::vector<std::uint8_t> hidden(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y));
+    for (std::uint8_t& pixel : hidden) pixel = draw(0, 3) == 0 ? 1 : 0;
+    result.plan.hidden = std::make_shared<const std::vector<std::uint8_t>>(std::move(hidden));
     return result;
 }
 
