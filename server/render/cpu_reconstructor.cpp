@@ -70,7 +70,7 @@ private:
                                                top_left.x;
             for (int x = first.x; x < last.x; ++x) {
                 if (hidden[x] == 0) continue;
-                const auto i = static_cast<std::size_t>(y * kTileEdge_px + x);
+                const std::size_t i = y * kTileEdge_px + x;
                 pixels.color[i] = kernels::kOpaqueBlack;
                 pixels.inverse_depth[i] = 0.0F;
             }
