@@ -17,6 +17,7 @@
 #include "masks/tile_tables.h"
 #include "protocol/codec/codec.h"
 #include "protocol/codec/depth_codec.h"
+#include "protocol/message/limits.h"
 #include "protocol/transport/tls.h"
 #include "scenes/load.h"
 #include "scenes/needs.h"
@@ -146,6 +147,14 @@ Expected<void> run(const Options& options, const Logger& logger) {
     if (!endpoint) return tl::unexpected(endpoint.error());
     const auto method = parse_method(options.sampling);
     if (!method) return tl::unexpected(method.error());
+    if (method->name.size() > kMaxName_bytes)
+        return fail(ErrorCode::option, "--sampling: clients take names of methods up to " +
+                                           std::to_string(kMaxName_bytes) + " bytes, not " + method->name);
+    const auto meshes = make_meshes(options, logger);
+    if (!meshes) return tl::unexpected(meshes.error());
+    if (method->mesh_file) {
+        if (auto own = (*meshes)->own(); !own) return tl::unexpected(own.error());
+    }
     const auto make_color_encoder = [&options](int width_px, int height_px, double frame_rate_hz) {
         return make_video_encoder({options.encoder, width_px, height_px, frame_rate_hz, options.bit_rate_bps, 0});
     };
@@ -167,11 +176,6 @@ Expected<void> run(const Options& options, const Logger& logger) {
     const auto tracer = make_tracer(*scene, options.scene.tracer, logger);
     if (!tracer) return tl::unexpected(tracer.error());
     const auto tables = std::make_shared<const TileTables>(make_rank_tile());
-    const auto meshes = make_meshes(options, logger);
-    if (!meshes) return tl::unexpected(meshes.error());
-    if (method->mesh_file) {
-        if (auto own = (*meshes)->own(); !own) return tl::unexpected(own.error());
-    }
     const auto reconstructors = make_reconstructors(options, tables, logger);
     if (!reconstructors) return tl::unexpected(reconstructors.error());
 

@@ -93,6 +93,10 @@ Expected<void> run(const RenderOptions& options) {
     if (!choice) return tl::unexpected(choice.error());
     const auto shot_plan = ShotPlan::parse(options);
     if (!shot_plan) return tl::unexpected(shot_plan.error());
+    MeshShelf meshes(options.mesh_cache, [&progress](const std::string& what) { progress.note(what); });
+    if (!options.mesh.empty()) {
+        if (auto read = meshes.read_own(options.mesh); !read) return read;
+    }
     std::optional<oneapi::tbb::global_control> threads;
     if (options.threads > 0)
         threads.emplace(oneapi::tbb::global_control::max_allowed_parallelism,
@@ -120,10 +124,6 @@ Expected<void> run(const RenderOptions& options) {
     report.reconstruction = *reconstructor ? (*reconstructor)->name() : "none";
     report.tracer_bytes = (*tracer)->memory_bytes();
 
-    MeshShelf meshes(options.mesh_cache, [&progress](const std::string& what) { progress.note(what); });
-    if (!options.mesh.empty()) {
-        if (auto read = meshes.read_own(options.mesh); !read) return read;
-    }
     auto shots = shot_plan->shots((*scene)->world_from_start, tables, meshes);
     if (!shots) return tl::unexpected(shots.error());
     std::vector<Layers> pictures;

@@ -82,6 +82,10 @@ TEST_F(ServerProgram, WrongOptions) {
     expect_end({"--context", "glx"}, ErrorCode::option, "--context");
     expect_end({"--bit-rate", "fast"}, ErrorCode::option, "--bit-rate");
     expect_end({"--sampling", "150"}, ErrorCode::option, "150");
+    expect_end({"--sampling", "layers:27/raster"}, ErrorCode::option, "only the sampler mesh");
+    expect_end({"--sampling", "mesh:file"}, ErrorCode::option, "--mesh FILE");
+    // A method whose name no message can carry.
+    expect_end({"--sampling", "law:alpha=0.1060,e2=2.3000,contrast=0.0156,exponent=2,full=0"}, ErrorCode::option, "64");
     expect_end({"--encoder", "nothing"}, ErrorCode::option, "nothing");
     expect_end({"--listen", "7470"}, ErrorCode::option, "ADDRESS:PORT");
     expect_end({"--listen", "127.0.0.1:99999"}, ErrorCode::option, "ADDRESS:PORT");
