@@ -208,7 +208,7 @@ Expected<void> run(const ClientOptions& options, const Logger& logger, const Sig
     if (!credentials) return tl::unexpected(credentials.error());
 
     ClientSessionOptions session_options;
-    session_options.hello = make_hello(client->headset, options.sampling, credentials->token);
+    session_options.hello = make_hello(client->headset, options, credentials->token);
     session_options.retry_for = std::chrono::milliseconds(static_cast<std::int64_t>(options.retry_seconds * 1e3));
     session_options.seed = static_cast<std::uint32_t>(now_ns());
     ClientSession session(

@@ -67,7 +67,7 @@ Expected<std::vector<std::unique_ptr<PictureSink>>> make_sinks(const std::vector
     return sinks;
 }
 
-Hello make_hello(const Display& headset, const std::string& sampling, const std::string& token) {
+Hello make_hello(const Display& headset, const ClientOptions& options, const std::string& token) {
     Hello hello;
     hello.client_name = "macula-client";
     hello.token = token;
@@ -79,8 +79,9 @@ Hello make_hello(const Display& headset, const std::string& sampling, const std:
         const EyeDisplay& from = headset.eyes[eye];
         hello.eyes[eye] = {from.tangents, from.head_from_eye, from.visible_outline};
     }
-    hello.sampling = sampling;
+    hello.sampling = options.sampling;
     hello.codecs = {"h264"};
+    hello.accumulates = options.taa != "off";
     return hello;
 }
 

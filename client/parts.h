@@ -24,8 +24,8 @@ Expected<std::unique_ptr<TrackSource>> make_source(const std::string& gaze,
 /// --display, one or more. Errors: `option`, `output`.
 Expected<std::vector<std::unique_ptr<PictureSink>>> make_sinks(const std::vector<std::string>& displays);
 
-/// First message of a session with this headset.
-Hello make_hello(const Display& headset, const std::string& sampling, const std::string& token);
+/// First message of a session with this headset, from --sampling and --taa.
+Hello make_hello(const Display& headset, const ClientOptions& options, const std::string& token);
 
 /// --token and --fingerprint, or what the state folder of a server on this machine says. Errors: `option`,
 /// `input_file`.

@@ -7,14 +7,14 @@
 #include "masks/rivals/layer_sampler.h"
 #include "masks/rivals/log_polar_sampler.h"
 #include "masks/rivals/uniform_sampler.h"
-#include "masks/tile_sampler.h"
 
 namespace macula {
 namespace {
 
 std::unique_ptr<Sampler> make_tile_sampler(const SamplingPreset& preset, const Display& display, Eye eye,
-                                           const std::shared_ptr<const TileTables>& tables) {
-    return std::make_unique<TileSampler>(display, eye, tile_law(display, eye, preset), tables);
+                                           const std::shared_ptr<const TileTables>& tables,
+                                           const TileSamplerOptions& options) {
+    return std::make_unique<TileSampler>(display, eye, tile_law(display, eye, preset), tables, options);
 }
 
 Expected<std::unique_ptr<Sampler>> make_mesh_sampler(const Method& method, const Display& display, Eye eye,
@@ -36,10 +36,11 @@ double share_of(const SamplingPreset& preset, const Display& display, Eye eye) {
 }  // namespace
 
 Expected<std::unique_ptr<Sampler>> make_sampler(const Method& method, const Display& display, Eye eye,
-                                                const std::shared_ptr<const TileTables>& tables, MeshShelf& meshes) {
+                                                const std::shared_ptr<const TileTables>& tables, MeshShelf& meshes,
+                                                const TileSamplerOptions& tiles) {
     switch (method.sampler) {
         case SamplerKind::tiles:
-            return make_tile_sampler(method.preset, display, eye, tables);
+            return make_tile_sampler(method.preset, display, eye, tables, tiles);
         case SamplerKind::mesh:
             return make_mesh_sampler(method, display, eye, meshes);
         case SamplerKind::uniform:

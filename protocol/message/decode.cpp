@@ -63,6 +63,7 @@ Hello read(const wire::Hello& hello) {
     result.eyes = {read(*hello.left()), read(*hello.right())};
     result.sampling = read(hello.sampling());
     result.codecs = read(hello.codecs());
+    result.accumulates = hello.accumulates();
     return result;
 }
 

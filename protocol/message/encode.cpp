@@ -40,7 +40,7 @@ Offset<wire::Hello> write(FlatBufferBuilder& builder, const Hello& hello) {
     const auto sampling = builder.CreateString(hello.sampling);
     const auto codecs = builder.CreateVectorOfStrings(hello.codecs);
     return wire::CreateHello(builder, hello.protocol_version, client_name, token, display_name, hello.eye_width_px,
-                             hello.eye_height_px, hello.refresh_hz, left, right, sampling, codecs);
+                             hello.eye_height_px, hello.refresh_hz, left, right, sampling, codecs, hello.accumulates);
 }
 
 Offset<wire::Welcome> write(FlatBufferBuilder& builder, const Welcome& welcome) {

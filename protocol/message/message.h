@@ -45,6 +45,9 @@ struct Hello {
     PerEye<EyeDisplayMessage> eyes;
     std::string sampling;             ///< wished preset; empty leaves the choice to the server
     std::vector<std::string> codecs;  ///< video codecs the client can decode, best first ("h264")
+    /// Whether the client accumulates frames over time. If not, samples that moved from frame to frame would only
+    /// flicker, so the server leaves them where they are.
+    bool accumulates = true;
 };
 
 /// Server -> client, answer to an accepted Hello.

@@ -113,8 +113,10 @@ TraceCounts EmbreeTracer::trace(std::span<const TraceTask> tasks, double time_s)
         total += batch_count(task);
     }
     const std::shared_ptr<const ScenePose> pose = scene_.at(time_s);
-    const BatchFrame frame{
-        {shading_, *pose, needs_, options_.bounce_bound, samples_side(options_.light_samples)}, options_.bounces, tap_};
+    const BatchFrame frame{{shading_, *pose, needs_, options_.bounce_bound, samples_side(options_.light_samples),
+                            options_.normal_roughness},
+                           options_.bounces,
+                           tap_};
     SharedCounts shared;
     parallel_ranges(0, total, kBatchesPerTask, [&](int begin, int end) {
         TraceCounts counts;

@@ -15,9 +15,10 @@ namespace macula {
 struct ShadingContext {
     const ShadingScene& scene;
     const ScenePose& pose;
-    std::uint32_t needs = 0;     ///< of `Need`: code for others is not run
-    float bounce_bound = 0.0F;   ///< TracerOptions'
-    int light_samples_side = 1;  ///< square root of TracerOptions::light_samples
+    std::uint32_t needs = 0;       ///< of `Need`: code for others is not run
+    float bounce_bound = 0.0F;     ///< TracerOptions'
+    int light_samples_side = 1;    ///< square root of TracerOptions::light_samples
+    bool normal_roughness = true;  ///< TracerOptions'
 };
 
 /// What a packet of rays met. Lanes that are not in `hit` are undefined where a miss has no such thing.

@@ -178,12 +178,13 @@ vec4 tangent_at(const ShadingInstance& instance, const InstancePlace* place, con
 class LaneFetch {
 public:
     LaneFetch(const ShadingInstance& instance, const InstancePlace* place, FootprintReader& read, int lane,
-              SurfacePacket& surfaces)
+              bool normal_roughness, SurfacePacket& surfaces)
         : instance_(instance),
           material_(*instance.material),
           place_(place),
           read_(read),
           lane_(lane),
+          normal_roughness_(normal_roughness),
           surfaces_(surfaces) {}
 
     /// The rarer part of a plain material.
@@ -247,7 +248,7 @@ private:
     /// Normal of a normal map over the lane's; the detail that the footprint averages widens the lobe.
     vec3 bend(const ShadingTexture& map, float scale, float& roughness) {
         const NormalLookup found = read_.normal(map);
-        if (found.variance > 0.0F) {
+        if (found.variance > 0.0F && normal_roughness_) {
             const float alpha = roughness * roughness;
             roughness = std::sqrt(std::min(std::sqrt(alpha * alpha + found.variance * scale * scale), 1.0F));
         }
@@ -261,6 +262,7 @@ private:
     const InstancePlace* place_;
     FootprintReader& read_;
     int lane_;
+    bool normal_roughness_;
     SurfacePacket& surfaces_;
 };
 
@@ -327,7 +329,7 @@ void fetch_surfaces(const ShadingContext& context, const HitPacket& hits, Surfac
         FootprintReader read(place, hits, footprints, lane);
         const vec4 color = base_color(read);
         surfaces.base_color.set(lane, vec3(color));
-        LaneFetch fetch(instance, place.moved, read, lane, surfaces);
+        LaneFetch fetch(instance, place.moved, read, lane, context.normal_roughness, surfaces);
         if ((instance.features & kUnlit) != 0) {
             surfaces.lit &= ~(1U << lane);
         } else {

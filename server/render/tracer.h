@@ -59,6 +59,8 @@ struct TracerOptions {
     /// taken from the environment. 0: all are traced.
     float bounce_bound = 0.02F;
     int light_samples = 4;  ///< shadow rays to a light with an extent: 1, 4, 16 or 64
+    /// Normals that a footprint averages away widen the lobe. False: they are lost; for measuring what they are worth.
+    bool normal_roughness = true;
     /// Code for these features is run whether the scene has them or not; for measuring what that costs.
     std::uint32_t forced_features = 0;
 };

@@ -95,7 +95,8 @@ Expected<void> FrameMaker::make(const Track& track, std::int64_t track_received_
     frame.times.track_received_ns = track_received_ns;
     frame.times.begin_ns = now_ns();
 
-    const glm::ivec2 phase_px = phase_of_frame(frame_index_++);
+    const glm::ivec2 phase_px = phase_of_frame(frame_index_);
+    if (parts_.shifts_phase) ++frame_index_;
     const PerEye<EyeView> views = eye_views(display_, parts_.scene->world_from_start * predict_head(track));
     std::array<TraceTask, kEyeCount> tasks;
     for (std::size_t eye = 0; eye < kEyeCount; ++eye) {

@@ -33,6 +33,9 @@ public:
         std::int64_t scene_start_ns = 0;     ///< this machine's time at which its animation began
         /// Whether the depth of a frame is that of the images in mirrors and behind glass (Samples).
         bool image_depth = false;
+        /// Whether the rank tile is shifted from frame to frame (phase_of_frame), for clients that accumulate; without,
+        /// every frame has the phase of the first.
+        bool shifts_phase = true;
         std::shared_ptr<const Tracer> tracer;
         PerEye<std::unique_ptr<Sampler>> samplers;
         std::unique_ptr<Reconstructor> reconstructor;

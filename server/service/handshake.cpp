@@ -42,6 +42,7 @@ Expected<Admission> admit(const Hello& hello, const Supplies& supplies) {
     maker_parts.scene = supplies.scene;
     maker_parts.scene_start_ns = supplies.scene_start_ns;
     maker_parts.image_depth = supplies.image_depth;
+    maker_parts.shifts_phase = hello.accumulates;
     maker_parts.tracer = supplies.tracer;
     for (const Eye eye : {kLeftEye, kRightEye}) {
         auto sampler = supplies.make_sampler(display, eye, sampling);

@@ -23,12 +23,13 @@ struct ClipFigures {
     int frames = 0;
     /// Peak signal to noise of all pixels of all frames together, decibels; infinite where nothing differs.
     double psnr_db = 0.0;
-    double foveal_psnr_db = 0.0;  ///< of the foveal window of each frame; NaN if the gaze is never on the picture
+    double foveal_psnr_db = 0.0;  ///< of the foveal window of each frame; NaN if it never has a pixel
     /// Structural similarity of luma, mean over pixels and frames (Wang et al. 2004: Gaussian window with a standard
-    /// deviation of 1.5 px over 11x11 px, K1 .01, K2 .03), of those whose window holds no hidden pixel.
+    /// deviation of 1.5 px over 11x11 px, K1 .01, K2 .03), of those whose window is on the picture and holds no hidden
+    /// pixel; NaN if there is none. Luma has the weights of Rec.709.
     double ssim = 0.0;
     /// rms over pixels and steps from frame to frame of the change of the error, (I' - R') - (I - R): what moves
-    /// without cause. A reference that moves with the head compensates motion. NaN for a single frame.
+    /// without cause. A reference that moves with the head compensates motion. NaN for a single frame, as what follows.
     double flicker = 0.0;
     std::array<double, kRingEnd_deg.size()> ring_flicker{};  ///< by kRingEnd_deg; NaN where a ring has no pixel
     double worst_flicker = 0.0;                              ///< of the step that changes most: what pops
@@ -44,30 +45,36 @@ public:
     /// `hidden`: 1 for each pixel that the lens never shows, row-major, or empty.
     ClipMeter(const Tangents& tangents, int width_px, int height_px, std::vector<std::uint8_t> hidden);
 
-    /// Takes the next frame of the clip and its reference, with the true gaze of its time.
+    /// Takes the next frame of the clip and its reference, with the true gaze of its time: a unit vector in eye space.
+    /// Flicker from one frame to the next belongs to the rings around the later one's gaze.
     void add(const ColorImage& shown, const ColorImage& reference, const glm::vec3& gaze_eye);
     [[nodiscard]] ClipFigures figures() const;
 
 private:
-    /// Sum of squares and how many values it has.
-    struct Squares {
-        double sum = 0.0;
-        double values = 0.0;
-    };
+    /// Classes of pixels by angle from the gaze: the foveal window, what is left of the first ring, the other rings,
+    /// what is beyond them all, and what is hidden.
+    enum Zone : std::uint8_t { kFovea = 0, kBeyond = kRingEnd_deg.size() + 1, kHidden, kZones };
+    using PerZone = std::array<std::int64_t, kZones>;
+
+    void set_zones(const glm::vec3& gaze_eye);
 
     Tangents tangents_;
     int width_px_;
     int height_px_;
     std::vector<std::uint8_t> hidden_;
+    std::vector<std::uint8_t> no_window_;  ///< 1 where the window of SSIM leaves the picture or holds a hidden pixel
+    std::vector<std::uint8_t> zone_;       ///< of each pixel, for gaze_
+    glm::vec3 gaze_ = glm::vec3(0.0F);
+    PerZone pixels_now_{};  ///< how many pixels each zone has, for gaze_
     int frames_ = 0;
-    Squares error_;
-    Squares foveal_error_;
+    // Sums of squares over the three channels, in units of a byte's step, exact; pixels that they are of.
+    PerZone error_{};
+    PerZone error_pixels_{};
+    PerZone change_{};
+    PerZone change_pixels_{};
     double ssim_sum_ = 0.0;
-    Squares change_;
-    std::array<Squares, kRingEnd_deg.size()> ring_change_{};
-    double worst_change_ = 0.0;
-    ColorImage shown_before_;
-    ColorImage reference_before_;
+    double worst_change_ = 0.0;               ///< mean square of a step, in the same unit
+    std::vector<std::int16_t> error_before_;  ///< shown - reference of the last frame, three channels a pixel
 };
 
 }  // namespace macula::test

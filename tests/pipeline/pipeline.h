@@ -1,13 +1,12 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "client/present/compositor.h"
-#include "client/stream/frame_decoder.h"
 #include "masks/display.h"
 #include "masks/tile_tables.h"
 #include "protocol/base/error.h"
@@ -42,7 +41,7 @@ Expected<Stage> make_stage(std::shared_ptr<const Scene> scene, const std::set<st
 Expected<Display> display_of_row(const std::string& name);
 
 /// Times of the stages of one stereo frame, milliseconds.
-struct StageTimes {
+struct StageMilliseconds {
     double plan = 0.0;
     double trace = 0.0;
     double reconstruct = 0.0;
@@ -68,14 +67,16 @@ public:
 
     [[nodiscard]] const Display& display() const { return display_; }
     /// Of the last frame.
-    [[nodiscard]] const StageTimes& times() const { return times_; }
+    [[nodiscard]] const StageMilliseconds& times() const { return times_; }
     [[nodiscard]] std::size_t bytes() const { return bytes_; }                   ///< of both streams
     [[nodiscard]] double traced_share() const { return traced_share_; }          ///< of both eyes' pixels
     [[nodiscard]] const Picture& rendered() const { return picture_; }           ///< before coding
-    [[nodiscard]] const ColorImage& decoded() const { return received_.color; }  ///< before accumulation
+    [[nodiscard]] const ColorImage& decoded() const { return decoded_; }  ///< before accumulation
 
 private:
     Pipeline() = default;
+    /// Codes the rendered picture and decodes it.
+    Expected<void> transmit();
 
     Stage stage_;
     Display display_;
@@ -87,9 +88,11 @@ private:
     std::unique_ptr<Compositor> compositor_;
     std::vector<std::uint8_t> rank_tile_;
     Picture picture_;
-    ReceivedFrame received_;
+    ColorImage decoded_;
+    InverseDepthImage depth_;
+    Image<std::uint8_t> moving_map_;
     ColorImage shown_;
-    StageTimes times_;
+    StageMilliseconds times_;
     std::size_t bytes_ = 0;
     double traced_share_ = 0.0;
     std::uint64_t next_id_ = 1;

@@ -11,7 +11,7 @@ namespace macula::test {
 /// One measurement: all that must be said to make it again. Its name is one line:
 ///
 ///     SCENE SCENARIO METHOD [taa=macula|paper|off] [codec=h264|none] [display=vive/2] [frames=24] [warm=24] [seed=1]
-///     [latency=0] [without=PART,PART...]
+///     [latency=0] [without=PART+PART...]
 ///
 ///     bunny-box pursuit tiles:27/tiles
 ///     air-shed recorded mesh:paper-54/raster taa=paper display=vive/4 seed=3

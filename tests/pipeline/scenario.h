@@ -15,7 +15,7 @@ namespace macula::test {
 struct Moment {
     std::int64_t time_ns = 0;
     Pose start_from_head;  ///< relative to where the session begins
-    /// Unit vector in head space, the same for both eyes: what the eye tracker says.
+    /// What the eye tracker says: unit vector in head space, the same for both eyes, which look into the distance.
     glm::vec3 gaze_head = glm::vec3(0.0F, 0.0F, -1.0F);
     glm::vec3 true_gaze_head = glm::vec3(0.0F, 0.0F, -1.0F);  ///< where the eye looks in truth: what metrics use
     float confidence = 1.0F;                                  ///< below .5: the tracker has lost the eye
@@ -35,7 +35,7 @@ struct Moment {
 ///   pan         the head turns at 150 deg/s, p99 of recordings; the gaze is fixed in the head
 ///   slow-pan    the head turns by .1 pixels of `vive` a frame
 ///   sway        the head translates at .5 m/s sideways, to and fro: near objects uncover what lies behind
-///   cut         the head jumps by 60 degrees and 1 m in the middle of the clip
+///   cut         the head jumps by 60 degrees and .3 m in the middle of the clip
 ///   recorded-gaze   gaze of shared/gaze, in the head, which is still; the seed chooses where it begins
 ///   recorded        the same with the recorded head motion
 struct Scenario {

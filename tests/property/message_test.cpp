@@ -59,10 +59,11 @@ bool same(const StageTimes& a, const StageTimes& b) {
 }
 
 bool same(const Hello& a, const Hello& b) {
-    const auto& [version, client, token, display, width_px, height_px, refresh_hz, eyes, sampling, codecs] = a;
-    return std::tie(version, client, token, display, width_px, height_px, refresh_hz, sampling, codecs) ==
+    const auto& [version, client, token, display, width_px, height_px, refresh_hz, eyes, sampling, codecs,
+                 accumulates] = a;
+    return std::tie(version, client, token, display, width_px, height_px, refresh_hz, sampling, codecs, accumulates) ==
                std::tie(b.protocol_version, b.client_name, b.token, b.display_name, b.eye_width_px, b.eye_height_px,
-                        b.refresh_hz, b.sampling, b.codecs) &&
+                        b.refresh_hz, b.sampling, b.codecs, b.accumulates) &&
            same(eyes, b.eyes);
 }
 

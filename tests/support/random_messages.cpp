@@ -104,6 +104,7 @@ Hello hello(Maker& make) {
     hello.sampling = make.text(kMaxName_bytes);
     hello.codecs.resize(make.count(kMaxCodecs));
     for (std::string& codec : hello.codecs) codec = make.text(kMaxName_bytes);
+    hello.accumulates = make.flag();
     return hello;
 }
 

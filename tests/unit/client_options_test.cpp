@@ -56,6 +56,19 @@ TEST(ClientOptions, EachWayOfTemporalAntiAliasing) {
     }
 }
 
+TEST(Parts, HelloSaysWhetherTheClientAccumulates) {
+    const Display display = load_display("desktop").value();
+    for (const char* taa : {"macula", "paper", "off"}) {
+        ClientOptions options;
+        options.taa = taa;
+        options.sampling = "41";
+        const Hello hello = make_hello(display, options, "secret");
+        EXPECT_EQ(hello.accumulates, options.taa != "off") << taa;
+        EXPECT_EQ(hello.sampling, "41");
+        EXPECT_EQ(hello.token, "secret");
+    }
+}
+
 TEST(ClientOptions, MistakesHaveTheirExitCode) {
     for (const std::vector<std::string>& wrong : {std::vector<std::string>{"--no-such-option"},
                                                   {"--taa-on", "fpga"},

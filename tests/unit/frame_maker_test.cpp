@@ -10,6 +10,7 @@
 #include "masks/tile_sampler.h"
 #include "protocol/base/clock.h"
 #include "protocol/message/byte_map.h"
+#include "server/service/pacing.h"
 
 namespace macula {
 namespace {
@@ -181,6 +182,36 @@ TEST(FrameMaker, SceneIsTracedAsItStandsWhenTheFrameIsShown) {
     EXPECT_NEAR(made.tracer->last_time_s, 1.030, 1e-9);
     EXPECT_TRUE(made.picture.frame.moving.empty());
     EXPECT_TRUE(made.picture.frame.moving_map.empty());
+}
+
+/// Repeats the phase that it is asked for.
+class PhaseSampler final : public Sampler {
+public:
+    void plan(const PlanRequest& request, SamplePlan& plan) override {
+        GridSampler().plan(request, plan);
+        plan.phase_px = request.phase_px;
+    }
+};
+
+TEST(FrameMaker, ThePhaseRunsThroughItsCycleOrStays) {
+    for (const bool shifts : {true, false}) {
+        Display display;
+        display.eye_width_px = display.eye_height_px = kEdge_px;
+        FrameMaker::Parts parts;
+        parts.scene = std::make_shared<const Scene>(two_instances());
+        parts.shifts_phase = shifts;
+        parts.tracer = std::make_shared<HalvesTracer>();
+        for (auto& sampler : parts.samplers) sampler = std::make_unique<PhaseSampler>();
+        parts.reconstructor = std::make_unique<FlatReconstructor>();
+        FrameMaker maker(display, std::move(parts));
+        Picture picture;
+        for (std::uint64_t frame = 0; frame < 66; ++frame) {
+            ASSERT_TRUE(maker.make(Track{}, 0, picture));
+            for (const EyeSamplingMessage& sampling : picture.frame.sampling) {
+                ASSERT_EQ(sampling.phase_px, phase_of_frame(shifts ? frame : 0)) << frame;
+            }
+        }
+    }
 }
 
 TEST(FrameMaker, FramesOfMovingScenesSayWhatMoves) {

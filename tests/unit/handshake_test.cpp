@@ -95,6 +95,22 @@ TEST(Admit, ClientMayChooseTheSampling) {
     EXPECT_EQ(admission->welcome.sampling, "full");
 }
 
+TEST(Admit, ThePhaseIsShiftedForClientsThatAccumulate) {
+    for (const bool accumulates : {true, false}) {
+        Hello hello = good_hello();
+        hello.accumulates = accumulates;
+        const auto admission = admit(hello, fake_supplies());
+        ASSERT_TRUE(admission);
+        Picture first;
+        Picture second;
+        ASSERT_TRUE(admission->parts.frame_maker->make(Track{}, 0, first));
+        ASSERT_TRUE(admission->parts.frame_maker->make(Track{}, 0, second));
+        for (const Eye eye : {kLeftEye, kRightEye}) {
+            EXPECT_EQ(first.frame.sampling[eye].phase_px != second.frame.sampling[eye].phase_px, accumulates);
+        }
+    }
+}
+
 TEST(Admit, SaysWhatIsWrong) {
     const auto reason = [](const Hello& hello, const Supplies& supplies = fake_supplies()) {
         const auto admission = admit(hello, supplies);

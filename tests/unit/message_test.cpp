@@ -258,6 +258,18 @@ TEST(Message, AFrameThatDoesNotSayIsExact) {
     EXPECT_FALSE(std::get<Frame>(*decode_message(said)).sampling[1].exact);
 }
 
+TEST(Message, AClientThatDoesNotSayAccumulates) {
+    // As above: the Hello of a client from before there was the field.
+    Hello hello = some_hello();
+    ASSERT_TRUE(hello.accumulates);
+    const Bytes old = encode_message(hello);
+    hello.accumulates = false;
+    const Bytes said = encode_message(hello);
+    EXPECT_LT(old.size(), said.size());
+    EXPECT_TRUE(std::get<Hello>(*decode_message(old)).accumulates);
+    EXPECT_FALSE(std::get<Hello>(*decode_message(said)).accumulates);
+}
+
 TEST(Message, LimitOfLevelsIsThatOfMasks) {
     EXPECT_EQ(kMaxLevel, kFullLevel);
 }
