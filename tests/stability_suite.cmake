@@ -5,6 +5,9 @@ target_link_libraries(macula_stability_case PUBLIC macula_base PRIVATE macula_te
 target_compile_definitions(macula_stability_case PRIVATE
     MACULA_STABILITY_PICTURES="${CMAKE_CURRENT_BINARY_DIR}/stability")
 
+add_library(macula_test_scenes STATIC stability/scenes.cpp)
+target_link_libraries(macula_test_scenes PUBLIC macula_scenes)
+
 add_custom_target(stability_suite)
 function(macula_stability_test name)
     macula_test(${name} ${ARGN} LABELS stability TIMEOUT 1800)
