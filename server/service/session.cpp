@@ -97,7 +97,7 @@ Expected<void> Session::handle(const Message& message) {
                        return {};
                    },
                    [this](const FrameReport& report) -> Expected<void> {
-                       if (report.decode_failed) keyframe_wanted_ = true;
+                       if (report.decode_failed) keyframe_wish_.failed(report.frame_id);
                        statistics_.add_report(report);
                        pacer_.update([&report](PacingState& state) { state.reported(report.frame_id); });
                        return {};
@@ -147,7 +147,7 @@ void Session::encode_loop() {
 }
 
 Expected<void> Session::encode_and_send(Picture& picture) {
-    const bool keyframe = keyframe_wanted_.exchange(false);
+    const bool keyframe = keyframe_wish_.begin();
     Expected<EncodedFrame> color = parts_.color_encoder->encode(picture.color, keyframe);
     if (!color) return tl::unexpected(color.error());
     Expected<EncodedFrame> depth = parts_.depth_encoder->encode(picture.inverse_depth, picture.frame.near_m, keyframe);
@@ -158,6 +158,7 @@ Expected<void> Session::encode_and_send(Picture& picture) {
     frame.color = std::move(color->bytes);
     frame.depth = std::move(depth->bytes);
     frame.id = pacer_.update([](PacingState& state) { return state.encoded(); });
+    keyframe_wish_.coded(frame.id);
     frame.times.encode_ns = now_ns();
     frame.times.send_ns = frame.times.encode_ns;
 

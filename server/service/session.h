@@ -14,6 +14,7 @@
 #include "protocol/message/message.h"
 #include "protocol/transport/channel.h"
 #include "server/service/frame_maker.h"
+#include "server/service/keyframe_wish.h"
 #include "server/service/pacing.h"
 #include "server/service/statistics.h"
 
@@ -84,7 +85,7 @@ private:
     NewestSlot<Picture> pictures_;        ///< rendered, waits for the encoder
     NewestSlot<Picture> spare_pictures_;  ///< memory to render the next one into
     Pacer pacer_;
-    std::atomic<bool> keyframe_wanted_{true};
+    KeyframeWish keyframe_wish_;
     SessionStatistics statistics_;
 
     std::mutex finish_mutex_;
