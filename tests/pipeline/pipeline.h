@@ -68,9 +68,9 @@ public:
     [[nodiscard]] const Display& display() const { return display_; }
     /// Of the last frame.
     [[nodiscard]] const StageMilliseconds& times() const { return times_; }
-    [[nodiscard]] std::size_t bytes() const { return bytes_; }                   ///< of both streams
-    [[nodiscard]] double traced_share() const { return traced_share_; }          ///< of both eyes' pixels
-    [[nodiscard]] const Picture& rendered() const { return picture_; }           ///< before coding
+    [[nodiscard]] std::size_t bytes() const { return bytes_; }            ///< of both streams
+    [[nodiscard]] double traced_share() const { return traced_share_; }   ///< of both eyes' pixels
+    [[nodiscard]] const Picture& rendered() const { return picture_; }    ///< before coding
     [[nodiscard]] const ColorImage& decoded() const { return decoded_; }  ///< before accumulation
 
 private:
