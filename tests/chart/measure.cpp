@@ -18,6 +18,14 @@ glm::vec3 gaze_in_eye(const Display& display, const Moment& moment) {
     return glm::normalize(display.eyes[kLeftEye].head_from_eye.inverse().direction(moment.true_gaze_head));
 }
 
+/// What the lens hides is no difference to metrics that take whole pictures.
+std::vector<ColorImage> without_hidden(std::vector<ColorImage> pictures, const std::vector<std::uint8_t>& hidden) {
+    for (ColorImage& picture : pictures)
+        for (std::size_t i = 0; i < hidden.size(); ++i)
+            if (hidden[i] != 0) picture.texels[i] = 0xFF000000U;
+    return pictures;
+}
+
 }  // namespace
 
 Expected<const Stage*> Measurer::stage(const Row& row) {
@@ -56,8 +64,10 @@ void Measurer::make_references(const Row& row, const Display& display, const Sce
 
 Expected<void> Measurer::write_clips(const std::vector<ColorImage>& shown, const Display& display,
                                      const std::vector<glm::vec3>& gaze_eye) const {
-    if (auto written = write_npy(clips_ + "/test.npy", shown); !written) return written;
-    if (auto written = write_npy(clips_ + "/reference.npy", references_.pictures); !written) return written;
+    const std::vector<std::uint8_t> hidden = hidden_pixels(display, kLeftEye);
+    if (auto written = write_npy(clips_ + "/test.npy", without_hidden(shown, hidden)); !written) return written;
+    if (auto written = write_npy(clips_ + "/reference.npy", without_hidden(references_.pictures, hidden)); !written)
+        return written;
     const std::string path = clips_ + "/gaze.csv";
     std::ofstream file(path, std::ios::trunc);
     file << "frame,x_px,y_px\n";
