@@ -1,6 +1,6 @@
 macula_test(service_parts_test
     SOURCES unit/prediction_test.cpp unit/pacing_test.cpp unit/session_statistics_test.cpp unit/handshake_test.cpp
-            unit/scene_clock_test.cpp unit/motion_finder_test.cpp unit/frame_maker_test.cpp
+            unit/scene_clock_test.cpp unit/motion_finder_test.cpp unit/frame_maker_test.cpp unit/method_choices_test.cpp
     LINK macula_service
     LABELS fast threads)
 macula_test(session_test

@@ -78,6 +78,7 @@ Welcome read(const wire::Welcome& welcome) {
     result.rank_tile_size_px = welcome.rank_tile_size_px();
     result.rank_tile = read(welcome.rank_tile());
     result.world_from_start = read(*welcome.world_from_start());
+    result.can_choose = welcome.can_choose();
     return result;
 }
 
@@ -153,6 +154,7 @@ Expected<Frame> read(const wire::Frame& frame) {
     result.depth = read(frame.depth());
     result.moving = read(frame.moving());
     if (frame.moving_map() != nullptr) result.moving_map = read(frame.moving_map());
+    result.choice = frame.choice();
     return result;
 }
 
@@ -183,6 +185,14 @@ Expected<Message> read(const wire::Envelope& envelope) {
         }
         case wire::Body::Bye:
             return Bye{read(envelope.body_as_Bye()->reason())};
+        case wire::Body::Choose: {
+            const wire::Choose& choose = *envelope.body_as_Choose();
+            return Choose{choose.id(), read(choose.sampling()), choose.only_prepare()};
+        }
+        case wire::Body::Chosen: {
+            const wire::Chosen& chosen = *envelope.body_as_Chosen();
+            return Chosen{chosen.id(), read(chosen.problem())};
+        }
         case wire::Body::NONE:
             break;
     }

@@ -52,7 +52,7 @@ Offset<wire::Welcome> write(FlatBufferBuilder& builder, const Welcome& welcome) 
     const auto rank_tile = builder.CreateVector(welcome.rank_tile);
     const wire::Pose world_from_start = to_wire(welcome.world_from_start);
     return wire::CreateWelcome(builder, welcome.protocol_version, server_name, scene_name, codec, sampling, renderer,
-                               welcome.rank_tile_size_px, rank_tile, &world_from_start);
+                               welcome.rank_tile_size_px, rank_tile, &world_from_start, welcome.can_choose);
 }
 
 Offset<wire::Refused> write(FlatBufferBuilder& builder, const Refused& refused) {
@@ -107,7 +107,7 @@ Offset<wire::Frame> write(FlatBufferBuilder& builder, const Frame& frame) {
         frame.moving_map.empty() ? Offset<flatbuffers::Vector<std::uint8_t>>() : builder.CreateVector(frame.moving_map);
     return wire::CreateFrame(builder, frame.id, frame.track_id, frame.pose_time_ns, frame.gaze_time_ns,
                              frame.display_time_ns, left, right, frame.traced, frame.near_m, &times, frame.keyframe,
-                             color, depth, moving, moving_map);
+                             color, depth, moving, moving_map, frame.choice);
 }
 
 Offset<wire::FrameReport> write(FlatBufferBuilder& builder, const FrameReport& report) {
@@ -125,6 +125,14 @@ Offset<wire::Pong> write(FlatBufferBuilder& builder, const Pong& pong) {
 
 Offset<wire::Bye> write(FlatBufferBuilder& builder, const Bye& bye) {
     return wire::CreateBye(builder, builder.CreateString(bye.reason));
+}
+
+Offset<wire::Choose> write(FlatBufferBuilder& builder, const Choose& choose) {
+    return wire::CreateChoose(builder, choose.id, builder.CreateString(choose.sampling), choose.only_prepare);
+}
+
+Offset<wire::Chosen> write(FlatBufferBuilder& builder, const Chosen& chosen) {
+    return wire::CreateChosen(builder, chosen.id, builder.CreateString(chosen.problem));
 }
 
 template <class Table>

@@ -61,6 +61,7 @@ struct Welcome {
     int rank_tile_size_px = 0;            ///< edge of the rank tile, a multiple of the tile edge
     std::vector<std::uint8_t> rank_tile;  ///< rank order of each pixel inside its tile, row-major, 0..255
     Pose world_from_start;                ///< where a head pose of identity stands in the scene
+    bool can_choose = false;              ///< whether the server takes Choose; one that does not say so does not
 };
 
 /// Server -> client, answer to a Hello that cannot be served. The connection closes after it.
@@ -140,6 +141,7 @@ struct Frame {
     /// Which of them is seen where: one zstd frame (byte_map.h) that holds a byte for each 4x4 block of both eyes side
     /// by side, row-major, as the depth stream has them: 0 still, otherwise index into `moving` + 1. Empty if that is.
     std::vector<std::uint8_t> moving_map;
+    std::uint32_t choice = 0;  ///< id of the Choose that it was made after; 0: none
 };
 
 /// Client -> server, one for each frame shown or given up.
@@ -164,7 +166,21 @@ struct Bye {
     std::string reason;
 };
 
-using Message = std::variant<Hello, Welcome, Refused, Track, Frame, FrameReport, Ping, Pong, Bye>;
+/// Client -> server: frames are to be made in another way from now on, or later. The server goes on in the old way
+/// until the new one is ready.
+struct Choose {
+    std::uint32_t id = 0;       ///< counts up from 1
+    std::string sampling;       ///< as in Hello; not empty
+    bool only_prepare = false;  ///< makes the method ready, so that a later Choose takes effect at once, and no more
+};
+
+/// Server -> client: what became of a Choose.
+struct Chosen {
+    std::uint32_t id = 0;  ///< of the Choose
+    std::string problem;   ///< why the method cannot be had, for a person, one line; empty: it is ready
+};
+
+using Message = std::variant<Hello, Welcome, Refused, Track, Frame, FrameReport, Ping, Pong, Bye, Choose, Chosen>;
 
 /// Serialises a message; the result is the body that a Channel frames. Nothing is validated: a message outside
 /// the limits is refused by whoever decodes it.

@@ -219,6 +219,18 @@ void check_message(Check& check, Bye& bye) {
     check.text(bye.reason, kMaxText_bytes, "reason");
 }
 
+void check_message(Check& check, Choose& choose) {
+    check.in("Choose.");
+    check.that(choose.id > 0, "id", "is 0, which stands for the sampling of Hello");
+    check.text(choose.sampling, kMaxName_bytes, "sampling");
+    check.that(!choose.sampling.empty(), "sampling", "is empty");
+}
+
+void check_message(Check& check, Chosen& chosen) {
+    check.in("Chosen.");
+    check.text(chosen.problem, kMaxText_bytes, "problem");
+}
+
 }  // namespace
 
 Expected<void> validate(Message& message) {

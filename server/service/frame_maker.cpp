@@ -80,8 +80,19 @@ EyeSamplingMessage counted_levels(const SamplePlan& plan) {
 }  // namespace
 
 FrameMaker::FrameMaker(Display display, Parts parts)
-    : display_(std::move(display)), parts_(std::move(parts)), clock_(parts_.scene_start_ns), motion_(parts_.scene) {
+    : display_(std::move(display)),
+      parts_(std::move(parts)),
+      method_(std::make_shared<MethodParts>(MethodParts{std::move(parts_.samplers), std::move(parts_.reconstructor)})),
+      clock_(parts_.scene_start_ns),
+      motion_(parts_.scene) {
     for (Samples& samples : samples_) samples.keep_image_depth = parts_.image_depth;
+}
+
+void FrameMaker::use(std::shared_ptr<MethodParts> method, std::uint32_t choice) {
+    method_ = std::move(method);
+    choice_ = choice;
+    // A sampler may find in a plan what it wrote itself, but not what another one did.
+    plans_ = {};
 }
 
 Expected<void> FrameMaker::make(const Track& track, std::int64_t track_received_ns, Picture& picture) {
@@ -92,6 +103,7 @@ Expected<void> FrameMaker::make(const Track& track, std::int64_t track_received_
     frame.gaze_time_ns = track.gaze_time_ns;
     frame.display_time_ns = track.display_time_ns;
     frame.near_m = parts_.scene->near_m;
+    frame.choice = choice_;
     frame.times.track_received_ns = track_received_ns;
     frame.times.begin_ns = now_ns();
 
@@ -104,7 +116,7 @@ Expected<void> FrameMaker::make(const Track& track, std::int64_t track_received_
         const Pose eye_from_head = display_.eyes[eye].head_from_eye.inverse();
         frame.gaze[eye] = glm::normalize(eye_from_head.direction(gaze_head));
         frame.world_from_eye[eye] = views[eye].world_from_eye;
-        parts_.samplers[eye]->plan({frame.gaze[eye], phase_px}, plans_[eye]);
+        method_->samplers[eye]->plan({frame.gaze[eye], phase_px}, plans_[eye]);
         frame.sampling[eye] = sampling_message(plans_[eye]);
         frame.traced += plans_[eye].traced_in_window;
         tasks[eye] = {&views[eye], &plans_[eye], &samples_[eye]};
@@ -133,7 +145,7 @@ Expected<void> FrameMaker::reconstruct(Picture& picture) {
         Samples& samples = samples_[eye];
         // Reprojection moves what is seen, not the surface that it is seen in.
         if (parts_.image_depth) samples.inverse_depth_per_m.swap(samples.image_inverse_depth_per_m);
-        auto done = parts_.reconstructor->reconstruct(plans_[eye], samples, target);
+        auto done = method_->reconstructor->reconstruct(plans_[eye], samples, target);
         if (parts_.image_depth) samples.inverse_depth_per_m.swap(samples.image_inverse_depth_per_m);
         if (!done) return done;
     }

@@ -24,6 +24,12 @@ struct Picture {
     InverseDepthImage inverse_depth;
 };
 
+/// What a method (server/method.h) consists of in one session. One thread at a time.
+struct MethodParts {
+    PerEye<std::unique_ptr<Sampler>> samplers;
+    std::unique_ptr<Reconstructor> reconstructor;
+};
+
 /// Makes the pictures of one session: predicts, plans, traces, reconstructs. One thread at a time.
 class FrameMaker {
 public:
@@ -37,6 +43,7 @@ public:
         /// every frame has the phase of the first.
         bool shifts_phase = true;
         std::shared_ptr<const Tracer> tracer;
+        // The method that the session begins with.
         PerEye<std::unique_ptr<Sampler>> samplers;
         std::unique_ptr<Reconstructor> reconstructor;
     };
@@ -49,11 +56,17 @@ public:
     /// is lost.
     Expected<void> make(const Track& track, std::int64_t track_received_ns, Picture& picture);
 
+    /// Makes all further frames by another method; they carry the id of the choice. Nobody else uses the method while
+    /// frames are made with it.
+    void use(std::shared_ptr<MethodParts> method, std::uint32_t choice);
+
 private:
     Expected<void> reconstruct(Picture& picture);
 
     Display display_;
-    Parts parts_;
+    Parts parts_;  ///< but for the method
+    std::shared_ptr<MethodParts> method_;
+    std::uint32_t choice_ = 0;
     SceneClock clock_;
     MotionFinder motion_;
     PerEye<GazeHold> gaze_;

@@ -28,6 +28,24 @@ Display display_of(const Hello& hello) {
     return display;
 }
 
+namespace {
+
+Expected<std::unique_ptr<MethodParts>> make_method(const Display& display, const std::string& sampling,
+                                                   const Supplies& supplies) {
+    auto method = std::make_unique<MethodParts>();
+    for (const Eye eye : {kLeftEye, kRightEye}) {
+        auto sampler = supplies.make_sampler(display, eye, sampling);
+        if (!sampler) return tl::unexpected(sampler.error());
+        method->samplers[eye] = *std::move(sampler);
+    }
+    auto reconstructor = supplies.make_reconstructor(sampling);
+    if (!reconstructor) return tl::unexpected(reconstructor.error());
+    method->reconstructor = *std::move(reconstructor);
+    return method;
+}
+
+}  // namespace
+
 Expected<Admission> admit(const Hello& hello, const Supplies& supplies) {
     if (std::ranges::find(hello.codecs, supplies.codec) == hello.codecs.end())
         return fail(ErrorCode::refused, fmt::format("this server codes video as {}, which the client cannot decode: "
@@ -44,14 +62,10 @@ Expected<Admission> admit(const Hello& hello, const Supplies& supplies) {
     maker_parts.image_depth = supplies.image_depth;
     maker_parts.shifts_phase = hello.accumulates;
     maker_parts.tracer = supplies.tracer;
-    for (const Eye eye : {kLeftEye, kRightEye}) {
-        auto sampler = supplies.make_sampler(display, eye, sampling);
-        if (!sampler) return tl::unexpected(sampler.error());
-        maker_parts.samplers[eye] = *std::move(sampler);
-    }
-    auto reconstructor = supplies.make_reconstructor(sampling);
-    if (!reconstructor) return tl::unexpected(reconstructor.error());
-    maker_parts.reconstructor = *std::move(reconstructor);
+    auto method = make_method(display, sampling, supplies);
+    if (!method) return tl::unexpected(method.error());
+    maker_parts.samplers = std::move((*method)->samplers);
+    maker_parts.reconstructor = std::move((*method)->reconstructor);
     admission.reconstructor = maker_parts.reconstructor->name();
 
     const int width_px = kEyeCount * display.eye_width_px;
@@ -69,11 +83,15 @@ Expected<Admission> admit(const Hello& hello, const Supplies& supplies) {
     welcome.rank_tile_size_px = RankTile::kEdge_px;
     welcome.rank_tile.assign(supplies.rank_tile->rank.begin(), supplies.rank_tile->rank.end());
     welcome.world_from_start = supplies.scene->world_from_start;
+    welcome.can_choose = true;
 
     Session::Parts& parts = admission.parts;
     parts.refresh_hz = display.refresh_hz;
     parts.frame_pixels = static_cast<std::uint64_t>(width_px) * static_cast<std::uint64_t>(display.eye_height_px);
     parts.frame_maker = std::make_unique<FrameMaker>(display, std::move(maker_parts));
+    parts.make_method = [display, supplies](const std::string& chosen) {
+        return make_method(display, chosen, supplies);
+    };
     parts.color_encoder = *std::move(color_encoder);
     parts.depth_encoder = *std::move(depth_encoder);
     return admission;

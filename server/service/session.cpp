@@ -37,6 +37,7 @@ Session::Session(std::string name, Channel& channel, Parts parts, const SessionO
       parts_(std::move(parts)),
       options_(options),
       logger_(std::move(logger)),
+      choices_(std::move(parts_.make_method)),
       pacer_(parts_.refresh_hz, options.max_in_flight),
       statistics_(now_ns(), parts_.frame_pixels) {}
 
@@ -44,6 +45,7 @@ Expected<void> Session::run() {
     {
         const std::jthread render([this] { render_loop(); });
         const std::jthread encode([this] { encode_loop(); });
+        const std::jthread choose([this] { choose_loop(); });
         read_loop();
     }
     logger_->info("{}: ended after {}; {} tracks replaced by newer ones", name_, statistics_.summary_line(now_ns()),
@@ -64,6 +66,7 @@ void Session::finish(Expected<void> outcome, const std::string& bye) {
     }
     tracks_.close();
     pictures_.close();
+    choices_.close();
     pacer_.close();
     // A client that does not read its Bye sees the connection close, which is enough.
     if (!bye.empty()) static_cast<void>(channel_.send(encode_message(Bye{bye}), kByeLimit));
@@ -110,10 +113,14 @@ Expected<void> Session::handle(const Message& message) {
                        finish({}, "");
                        return {};
                    },
+                   [this](const Choose& choice) -> Expected<void> {
+                       const auto answer = choices_.ask(choice);
+                       return answer ? channel_.send(encode_message(*answer), options_.send_limit) : Expected<void>();
+                   },
                    [](const auto&) -> Expected<void> {
                        return fail(ErrorCode::protocol,
-                                   "unexpected message: after the handshake a client sends Track, FrameReport, Ping "
-                                   "and Bye");
+                                   "unexpected message: after the handshake a client sends Track, FrameReport, Ping, "
+                                   "Choose and Bye");
                    }},
         message);
 }
@@ -122,12 +129,26 @@ void Session::render_loop() {
     while (pacer_.wait_for_room()) {
         const auto received = tracks_.take(kWake);
         if (!received) continue;
+        if (auto made = choices_.take()) parts_.frame_maker->use(std::move(made->method), made->choice);
         Picture picture = spare_pictures_.try_take().value_or(Picture{});
         pacer_.update([](PacingState& state) { state.begin(now_ns()); });
         if (auto made = parts_.frame_maker->make(received->track, received->received_ns, picture); !made)
             return fail_with(made.error());
         pacer_.update([](PacingState& state) { state.rendered(); });
         pictures_.put(std::move(picture));
+    }
+}
+
+void Session::choose_loop() {
+    while (!finished_) {
+        const auto answer = choices_.make_next(kWake);
+        if (!answer) continue;
+        if (answer->problem.empty())
+            logger_->debug("{}: choice {} is ready", name_, answer->id);
+        else
+            logger_->warn("{}: choice {}: {}", name_, answer->id, answer->problem);
+        if (auto sent = channel_.send(encode_message(*answer), options_.send_limit); !sent)
+            return fail_with(sent.error());
     }
 }
 

@@ -15,6 +15,7 @@
 #include "protocol/transport/channel.h"
 #include "server/service/frame_maker.h"
 #include "server/service/keyframe_wish.h"
+#include "server/service/method_choices.h"
 #include "server/service/pacing.h"
 #include "server/service/statistics.h"
 
@@ -35,13 +36,14 @@ struct SessionOptions {
     int max_in_flight = 3;
 };
 
-/// Serves frames to one client after the handshake: one thread reads messages, one renders, one encodes and sends.
-/// Hand-offs are NewestSlots.
+/// Serves frames to one client after the handshake: one thread reads messages, one renders, one encodes and sends, and
+/// one makes other methods when the client chooses them. Hand-offs of tracks and pictures are NewestSlots.
 class Session {
 public:
     /// What is the session's own.
     struct Parts {
         std::unique_ptr<FrameMaker> frame_maker;
+        MethodChoices::Make make_method;  ///< for a client that chooses another method later
         std::unique_ptr<VideoEncoder> color_encoder;
         std::unique_ptr<DepthEncoder> depth_encoder;
         double refresh_hz = 90.0;
@@ -69,6 +71,7 @@ private:
     void read_loop();
     void render_loop();
     void encode_loop();
+    void choose_loop();
     Expected<void> handle(const Message& message);
     Expected<void> encode_and_send(Picture& picture);
     void fail_with(const Error& error);
@@ -84,6 +87,7 @@ private:
     NewestSlot<ReceivedTrack> tracks_;
     NewestSlot<Picture> pictures_;        ///< rendered, waits for the encoder
     NewestSlot<Picture> spare_pictures_;  ///< memory to render the next one into
+    MethodChoices choices_;
     Pacer pacer_;
     KeyframeWish keyframe_wish_;
     SessionStatistics statistics_;

@@ -68,10 +68,10 @@ bool same(const Hello& a, const Hello& b) {
 }
 
 bool same(const Welcome& a, const Welcome& b) {
-    const auto& [version, server, scene, codec, sampling, renderer, size_px, tile, world_from_start] = a;
-    return std::tie(version, server, scene, codec, sampling, renderer, size_px, tile) ==
+    const auto& [version, server, scene, codec, sampling, renderer, size_px, tile, world_from_start, can_choose] = a;
+    return std::tie(version, server, scene, codec, sampling, renderer, size_px, tile, can_choose) ==
                std::tie(b.protocol_version, b.server_name, b.scene_name, b.codec, b.sampling, b.renderer,
-                        b.rank_tile_size_px, b.rank_tile) &&
+                        b.rank_tile_size_px, b.rank_tile, b.can_choose) &&
            same(world_from_start, b.world_from_start);
 }
 
@@ -95,10 +95,10 @@ bool same(const MovingObject& a, const MovingObject& b) {
 
 bool same(const Frame& a, const Frame& b) {
     const auto& [id, track_id, pose_ns, gaze_ns, display_ns, world_from_eye, gaze, sampling, traced, near_m, times,
-                 keyframe, color, depth, moving, moving_map] = a;
-    return std::tie(id, track_id, pose_ns, gaze_ns, display_ns, traced, near_m, keyframe, color, depth, moving_map) ==
-               std::tie(b.id, b.track_id, b.pose_time_ns, b.gaze_time_ns, b.display_time_ns, b.traced, b.near_m,
-                        b.keyframe, b.color, b.depth, b.moving_map) &&
+                 keyframe, color, depth, moving, moving_map, choice] = a;
+    return std::tie(id, track_id, pose_ns, gaze_ns, display_ns, traced, near_m, keyframe, color, depth, moving_map,
+                    choice) == std::tie(b.id, b.track_id, b.pose_time_ns, b.gaze_time_ns, b.display_time_ns, b.traced,
+                                        b.near_m, b.keyframe, b.color, b.depth, b.moving_map, b.choice) &&
            std::ranges::equal(moving, b.moving, [](const auto& x, const auto& y) { return same(x, y); }) &&
            same(world_from_eye, b.world_from_eye) && same_direction(gaze[kLeftEye], b.gaze[kLeftEye]) &&
            same_direction(gaze[kRightEye], b.gaze[kRightEye]) && same(sampling, b.sampling) && same(times, b.times);
@@ -123,6 +123,16 @@ bool same(const Pong& a, const Pong& b) {
 bool same(const Bye& a, const Bye& b) {
     const auto& [reason] = a;
     return reason == b.reason;
+}
+
+bool same(const Choose& a, const Choose& b) {
+    const auto& [id, sampling, only_prepare] = a;
+    return std::tie(id, sampling, only_prepare) == std::tie(b.id, b.sampling, b.only_prepare);
+}
+
+bool same(const Chosen& a, const Chosen& b) {
+    const auto& [id, problem] = a;
+    return std::tie(id, problem) == std::tie(b.id, b.problem);
 }
 
 bool same(const Message& a, const Message& b) {

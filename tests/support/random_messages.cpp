@@ -120,6 +120,7 @@ Welcome welcome(Maker& make) {
     welcome.rank_tile =
         make.bytes(static_cast<std::size_t>(welcome.rank_tile_size_px * welcome.rank_tile_size_px), 255);
     welcome.world_from_start = make.pose();
+    welcome.can_choose = make.flag();
     return welcome;
 }
 
@@ -157,6 +158,7 @@ Frame frame(Maker& make) {
         for (std::uint32_t i = 0; i < count; ++i) frame.moving.push_back({i * 16777619U, make.affine(), make.affine()});
         frame.moving_map = make.bytes(1 + make.count(2000), 255);
     }
+    frame.choice = make.integer<std::uint32_t>(0, UINT32_MAX);
     return frame;
 }
 
@@ -182,8 +184,12 @@ Message random_message(std::size_t kind, std::mt19937& random) {
             return Ping{make.time()};
         case 7:
             return Pong{make.time(), make.time()};
-        default:
+        case 8:
             return Bye{make.text(kMaxText_bytes)};
+        case 9:
+            return Choose{make.integer<std::uint32_t>(1, UINT32_MAX), make.text(kMaxName_bytes - 1) + "x", make.flag()};
+        default:
+            return Chosen{make.integer<std::uint32_t>(0, UINT32_MAX), make.text(kMaxText_bytes)};
     }
 }
 

@@ -111,6 +111,24 @@ TEST(Admit, ThePhaseIsShiftedForClientsThatAccumulate) {
     }
 }
 
+TEST(Admit, OtherMethodsAreMadeForTheSameDisplay) {
+    const auto admission = admit(good_hello(), fake_supplies());
+    ASSERT_TRUE(admission);
+    EXPECT_TRUE(admission->welcome.can_choose);
+    const auto method = admission->parts.make_method("full");
+    ASSERT_TRUE(method) << method.error().message;
+    ASSERT_TRUE((*method)->reconstructor);
+    for (const auto& sampler : (*method)->samplers) {
+        SamplePlan plan;
+        sampler->plan({}, plan);
+        EXPECT_EQ(plan.width_px, 64);
+        EXPECT_EQ(plan.height_px, 80);
+    }
+    const auto unknown = admission->parts.make_method("99");
+    ASSERT_FALSE(unknown);
+    EXPECT_EQ(unknown.error().message, "no sampling preset 99");
+}
+
 TEST(Admit, SaysWhatIsWrong) {
     const auto reason = [](const Hello& hello, const Supplies& supplies = fake_supplies()) {
         const auto admission = admit(hello, supplies);

@@ -199,6 +199,17 @@ TEST(Message, SmallMessagesAreValidated) {
         {}, [](FrameReport& r) { r.decoded_ns = kMaxTime_ns + 1; }, "FrameReport.decoded_ns");
     expect_refused<FrameReport>(
         {}, [](FrameReport& r) { r.displayed_ns = -kMaxTime_ns - 1; }, "FrameReport.displayed_ns");
+    const Choose choose{1, "27", false};
+    expect_refused<Choose>(
+        choose, [](Choose& c) { c.id = 0; }, "Choose.id");
+    expect_refused<Choose>(
+        choose, [](Choose& c) { c.sampling.clear(); }, "Choose.sampling");
+    expect_refused<Choose>(
+        choose, [](Choose& c) { c.sampling.assign(65, 'x'); }, "Choose.sampling");
+    expect_refused<Chosen>(
+        {}, [](Chosen& c) { c.problem.assign(1025, 'x'); }, "Chosen.problem");
+    expect_refused<Chosen>(
+        {}, [](Chosen& c) { c.problem = "two\nlines"; }, "Chosen.problem");
 }
 
 TEST(Message, HelloOfAnotherVersionIsReadForItsRefusal) {

@@ -56,6 +56,7 @@ protected:
         maker_parts.reconstructor = std::move(reconstructor);
         Session::Parts parts;
         parts.frame_maker = std::make_unique<FrameMaker>(small_display(), std::move(maker_parts));
+        parts.make_method = [this](const std::string& sampling) { return make_method(sampling); };
         parts.color_encoder = std::make_unique<testing::FakeVideoEncoder>();
         parts.depth_encoder = std::make_unique<testing::FakeDepthEncoder>();
         parts.refresh_hz = 1000.0;
@@ -97,6 +98,17 @@ protected:
         return std::get<Frame>(*std::move(message));
     }
 
+    /// "slow" waits until may_make_ is set; other words are unknown, but for "small", whose plans are half as wide.
+    Expected<std::unique_ptr<MethodParts>> make_method(const std::string& sampling) {
+        if (sampling == "slow") may_make_.get_future().wait();
+        if (sampling != "small" && sampling != "slow") return fail(ErrorCode::option, "no method " + sampling);
+        auto method = std::make_unique<MethodParts>();
+        for (auto& sampler : method->samplers)
+            sampler = std::make_unique<testing::FakeSampler>(kWidth_px / 2, kHeight_px);
+        method->reconstructor = std::make_unique<FakeReconstructor>();
+        return method;
+    }
+
     /// How the session ended; says what its last words were.
     Expected<void> outcome() {
         while (auto message = receive())
@@ -112,6 +124,7 @@ protected:
     std::unique_ptr<Session> session_;
     std::future<Expected<void>> outcome_;
     std::string bye_;
+    std::promise<void> may_make_;
 };
 
 TEST_F(SessionTest, FrameCarriesEverythingThatMadeIt) {
@@ -215,6 +228,61 @@ TEST_F(SessionTest, FailedDecodingBringsAKeyframe) {
     const auto third = receive_frame();
     ASSERT_TRUE(third);
     EXPECT_TRUE(third->keyframe);
+}
+
+TEST_F(SessionTest, FramesAreMadeByTheMethodThatWasChosen) {
+    start();
+    send_track(1);
+    const auto before = receive_frame();
+    ASSERT_TRUE(before);
+    EXPECT_EQ(before->choice, 0U);
+    EXPECT_GE(before->sampling[kLeftEye].tiles_x, 4);
+    for (const bool only_prepare : {true, false}) {
+        send(Choose{only_prepare ? 7U : 8U, "small", only_prepare});
+        const auto answer = receive();
+        ASSERT_TRUE(answer && std::holds_alternative<Chosen>(*answer));
+        EXPECT_EQ(std::get<Chosen>(*answer).id, only_prepare ? 7U : 8U);
+        EXPECT_EQ(std::get<Chosen>(*answer).problem, "");
+        send_track(2);
+        const auto frame = receive_frame();
+        ASSERT_TRUE(frame);
+        EXPECT_EQ(frame->choice, only_prepare ? 0U : 8U);
+        // The phase may have shifted the tiles so that one more touches the window.
+        EXPECT_EQ(frame->sampling[kRightEye].tiles_x >= 4, only_prepare);
+        EXPECT_FALSE(frame->keyframe) << "the stream goes on";
+        send(FrameReport{frame->id, 1, 2, 3, false});
+    }
+}
+
+TEST_F(SessionTest, FramesGoOnWhileAMethodIsMade) {
+    start();
+    send(Choose{1, "slow", false});
+    for (std::uint64_t id = 1; id <= 3; ++id) {
+        send_track(id);
+        const auto frame = receive_frame();
+        ASSERT_TRUE(frame);
+        EXPECT_EQ(frame->choice, 0U);
+        send(FrameReport{frame->id, 1, 2, 3, false});
+    }
+    may_make_.set_value();
+    const auto answer = receive();
+    ASSERT_TRUE(answer && std::holds_alternative<Chosen>(*answer));
+    send_track(4);
+    EXPECT_EQ(receive_frame()->choice, 1U);
+}
+
+TEST_F(SessionTest, AnUnknownMethodLeavesTheOldOne) {
+    start();
+    send(Choose{3, "nonsense", false});
+    const auto answer = receive();
+    ASSERT_TRUE(answer && std::holds_alternative<Chosen>(*answer));
+    EXPECT_EQ(std::get<Chosen>(*answer).id, 3U);
+    EXPECT_EQ(std::get<Chosen>(*answer).problem, "no method nonsense");
+    send_track(1);
+    const auto frame = receive_frame();
+    ASSERT_TRUE(frame);
+    EXPECT_EQ(frame->choice, 0U);
+    EXPECT_EQ(frame->traced, 40U);
 }
 
 TEST_F(SessionTest, PingIsAnsweredWithBothTimes) {
