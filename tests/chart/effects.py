@@ -1,0 +1,94 @@
+"""What switching a model off did: pairs of rows that differ in nothing else."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from columns import FLICKER, FLIP, FOVEA, JOD, PSNR, SSIM, TRANSIENT, WORST_FLICKER, Figure
+from measured import Measured
+
+
+@dataclass(frozen=True)
+class Watched:
+    """A figure of which the change is watched. Changes below `least` are none that anybody would keep a model for."""
+
+    figure: Figure
+    heading: str
+    relative: bool  # change in percent; otherwise in the figure's own unit
+    least: float
+    digits: int
+
+    def change(self, on: Measured, off: Measured) -> float:
+        """NaN where either is missing, or infinite."""
+        before, after = on.number(self.figure.column), off.number(self.figure.column)
+        if not (math.isfinite(before) and math.isfinite(after)):
+            return math.nan
+        if not self.relative:
+            return after - before
+        return 100 * (after / before - 1) if before > 0 else math.nan
+
+
+def _time(column: str, heading: str) -> Watched:
+    return Watched(Figure(column, heading, heading, 1, False), f"{heading}, %", True, 2.0, 1)
+
+
+# Times first. Of those, what is below 2 % is below what repeats differ by; a tenth of a decibel and 2 % of flicker are
+# far below what is seen; a JOD of .05 is what blurring the foveal degree costs.
+WATCHED = (
+    _time("server_p50_ms", "server"),
+    _time("accumulate_p50_ms", "accumulate"),
+    Watched(PSNR, "PSNR, dB", False, 0.1, 2),
+    Watched(FOVEA, "fovea, dB", False, 0.1, 2),
+    Watched(SSIM, "SSIM", False, 0.002, 4),
+    Watched(FLIP, "FLIP", False, 0.002, 4),
+    Watched(JOD, "JOD", False, 0.05, 2),
+    Watched(TRANSIENT, "transient", False, 0.05, 2),
+    Watched(FLICKER, "flicker, %", True, 2.0, 1),
+    Watched(WORST_FLICKER, "worst step, %", True, 2.0, 1),
+)
+
+
+@dataclass(frozen=True)
+class Pair:
+    """The same row with everything on, measured right before, and with one model off."""
+
+    on: Measured
+    off: Measured
+
+
+@dataclass(frozen=True)
+class Change:
+    """Mean over pairs and its standard error, NaN of a single pair."""
+
+    watched: Watched
+    mean: float
+    error: float
+
+    @property
+    def counts(self) -> bool:
+        """Larger than what is to be ignored and than twice its error."""
+        certain = math.isnan(self.error) or abs(self.mean) > 2 * self.error
+        return abs(self.mean) >= self.watched.least and certain
+
+    @property
+    def text(self) -> str:
+        if math.isnan(self.mean):
+            return ""
+        digits = self.watched.digits
+        text = f"{self.mean:+.{digits}f}"
+        if not math.isnan(self.error):
+            text += f" ± {self.error:.{digits}f}"
+        return f"**{text}**" if self.counts else text
+
+
+def change_of(watched: Watched, pairs: Sequence[Pair]) -> Change:
+    changes = [change for pair in pairs if not math.isnan(change := watched.change(pair.on, pair.off))]
+    if not changes:
+        return Change(watched, math.nan, math.nan)
+    mean = math.fsum(changes) / len(changes)
+    if len(changes) < 2:
+        return Change(watched, mean, math.nan)
+    squares = math.fsum((change - mean) ** 2 for change in changes)
+    return Change(watched, mean, math.sqrt(squares / (len(changes) - 1) / len(changes)))
