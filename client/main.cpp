@@ -16,6 +16,7 @@
 #include "client/device_thread.h"
 #include "client/parts.h"
 #include "client/report.h"
+#include "client/study/key_reader.h"
 #include "protocol/base/clock.h"
 #include "protocol/transport/tls.h"
 
@@ -62,6 +63,7 @@ struct Client {
     std::vector<std::unique_ptr<PictureSink>> sinks;
     std::unique_ptr<Compositor> compositor;
     Report report;
+    std::unique_ptr<Study> study;  ///< null: none
     Logger logger;
 };
 
@@ -101,6 +103,28 @@ Expected<void> present(Client& client, ClientSession& session, const DeviceThrea
     }
     times.written_ns = now_ns();
     client.report.add(received, times, session.clock_offset(), session.counters());
+    if (!client.study) return {};
+    const bool begun = client.study->begun();
+    auto shown = client.study->shown(frame, received.connection, *received.welcome, times.displayed_ns);
+    if (!begun && client.study->begun()) client.logger->info("the study begins: press a key when the picture changes");
+    return shown;
+}
+
+/// What is due in the study: questions to the server, its answers, and keys.
+Expected<void> go_on(Study& study, ClientSession& session, KeyReader& keys, const Logger& logger) {
+    const auto welcome = session.welcome();
+    if (!welcome) return {};
+    if (!welcome->can_choose)
+        return fail(ErrorCode::refused, "the study needs a server that changes the sampling while it runs, and " +
+                                            welcome->server_name + " is too old for that");
+    for (const Choose& choice : study.due(now_ns())) {
+        logger->debug("study: {}{}", choice.sampling, choice.only_prepare ? " is to be prepared" : "");
+        session.send(choice);
+    }
+    for (const Chosen& answer : session.take_answers()) {
+        if (auto good = study.answered(answer); !good) return good;
+    }
+    for (const std::int64_t pressed_ns : keys.take()) study.key(pressed_ns);
     return {};
 }
 
@@ -124,9 +148,16 @@ Expected<void> show_frames(Client& client, ClientSession& session, const Signals
     ColorImage picture;
     const std::int64_t limit_ns = length_ns(client.options);
     const auto frame_limit = static_cast<std::uint64_t>(client.options.frames);
+    std::optional<KeyReader> keys;
+    if (client.study) keys.emplace();
     Expected<void> result;
     while (result && !signals.raised()) {
         const std::int64_t now = now_ns();
+        if (client.study) {
+            if (client.study->over(now)) break;
+            result = go_on(*client.study, session, *keys, client.logger);
+            if (!result) break;
+        }
         if (!devices && session.welcome()) {
             devices.emplace(std::move(client.source), std::move(client.recorder), deliver);
             begin_ns = now;
@@ -142,6 +173,10 @@ Expected<void> show_frames(Client& client, ClientSession& session, const Signals
         } else if (const auto error = session.error()) {
             result = tl::unexpected(*error);
         }
+    }
+    if (client.study) {
+        for (const std::int64_t pressed_ns : keys->take()) client.study->key(pressed_ns);
+        if (auto closed = client.study->close(now_ns()); !closed && result) result = closed;
     }
     if (devices) {
         if (auto recorded = devices->stop(); !recorded && result) result = recorded;
@@ -178,10 +213,19 @@ Expected<Client> make_client(const ClientOptions& options, const Logger& logger)
                         static_cast<std::uint64_t>(headset->eye_height_px);
     auto report = Report::open(options.stats, pixels);
     if (!report) return tl::unexpected(report.error());
+    auto study = make_study(options);
+    if (!study) return tl::unexpected(study.error());
     logger->info("{}; {} at {}x{} per eye", (*source)->name(), headset->name, headset->eye_width_px,
                  headset->eye_height_px);
-    return Client{options,           std::move(*headset),    std::move(*source), std::move(recorder),
-                  std::move(*sinks), std::move(*compositor), std::move(*report), logger};
+    return Client{options,
+                  std::move(*headset),
+                  std::move(*source),
+                  std::move(recorder),
+                  std::move(*sinks),
+                  std::move(*compositor),
+                  std::move(*report),
+                  std::move(*study),
+                  logger};
 }
 
 /// --connect none: the recording that a session would have made, without the session.

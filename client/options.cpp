@@ -7,6 +7,34 @@
 
 namespace macula {
 
+namespace {
+
+/// The detection experiment's options; their own group, since nobody else needs them.
+void add_study_options(CLI::App& app, ClientOptions& options) {
+    constexpr const char* kGroup = "Study (tests/study/README.md)";
+    StudySettings& study = options.study_settings;
+    app.add_option("--study", options.study,
+                   "Run the detection experiment: masks replace one another, keys that are pressed on the terminal, or "
+                   "lines of other standard input, go to this CSV file")
+        ->group(kGroup);
+    app.add_option("--study-reference", study.reference, "What is shown first, a sampling as above")
+        ->capture_default_str()
+        ->group(kGroup);
+    app.add_option("--study-masks", study.masks, "What is then shown in random order, one or more samplings")
+        ->capture_default_str()
+        ->group(kGroup);
+    const auto add_seconds = [&](const char* name, double& seconds, const char* what) {
+        app.add_option(name, seconds, what)->check(CLI::Range(0.0, 1e6))->capture_default_str()->group(kGroup);
+    };
+    add_seconds("--study-begin", study.begin_s, "Seconds of the reference");
+    add_seconds("--study-interval", study.interval_s, "Seconds between changes, on average");
+    add_seconds("--study-spread", study.spread_s, "Intervals are up to so many seconds shorter or longer, evenly");
+    add_seconds("--study-length", study.length_s, "Seconds of the whole, the reference included");
+    app.add_option("--study-seed", study.seed, "Of masks and intervals")->capture_default_str()->group(kGroup);
+}
+
+}  // namespace
+
 std::variant<ClientOptions, int> parse_client_options(int argc, char** argv) {
     ClientOptions options;
     CLI::App app{"macula-client: sends head and gaze to a server and shows the frames that come back.",
@@ -56,6 +84,7 @@ std::variant<ClientOptions, int> parse_client_options(int argc, char** argv) {
                    "Give up when there has been no server for so long; 0: at the first failure")
         ->check(CLI::Range(0.0, 1e6))
         ->capture_default_str();
+    add_study_options(app, options);
     app.add_option("--log-level", options.log_level, "debug, info, warning or error")
         ->check(CLI::IsMember({"debug", "info", "warning", "error"}))
         ->capture_default_str();

@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include "client/study/schedule.h"
 #include "protocol/base/error.h"
 
 namespace macula {
@@ -30,6 +31,8 @@ struct ClientOptions {
     std::string context = "auto";
     double retry_seconds = 30;
     std::string log_level = "info";
+    std::string study;  ///< CSV file; empty: no study
+    StudySettings study_settings;
 };
 
 /// Reads the command line and the configuration file that it names. Returns an exit code instead where that is all

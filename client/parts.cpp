@@ -67,6 +67,16 @@ Expected<std::vector<std::unique_ptr<PictureSink>>> make_sinks(const std::vector
     return sinks;
 }
 
+Expected<std::unique_ptr<Study>> make_study(const ClientOptions& options) {
+    if (options.study.empty()) return nullptr;
+    if (!options.sampling.empty())
+        return fail(ErrorCode::option, "--study chooses the sampling: give --study-reference and not --sampling");
+    if (auto good = check_study(options.study_settings); !good) return tl::unexpected(good.error());
+    auto log = StudyLog::open(options.study);
+    if (!log) return tl::unexpected(log.error());
+    return std::make_unique<Study>(options.study_settings, std::move(*log));
+}
+
 Hello make_hello(const Display& headset, const ClientOptions& options, const std::string& token) {
     Hello hello;
     hello.client_name = "macula-client";
@@ -79,7 +89,7 @@ Hello make_hello(const Display& headset, const ClientOptions& options, const std
         const EyeDisplay& from = headset.eyes[eye];
         hello.eyes[eye] = {from.tangents, from.head_from_eye, from.visible_outline};
     }
-    hello.sampling = options.sampling;
+    hello.sampling = options.study.empty() ? options.sampling : options.study_settings.reference;
     hello.codecs = {"h264"};
     hello.accumulates = options.taa != "off";
     return hello;

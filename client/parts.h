@@ -10,6 +10,7 @@
 #include "client/present/compositor.h"
 #include "client/present/picture_sink.h"
 #include "client/stream/client_session.h"
+#include "client/study/study.h"
 #include "masks/display.h"
 #include "protocol/transport/identity.h"
 
@@ -24,7 +25,10 @@ Expected<std::unique_ptr<TrackSource>> make_source(const std::string& gaze,
 /// --display, one or more. Errors: `option`, `output`.
 Expected<std::vector<std::unique_ptr<PictureSink>>> make_sinks(const std::vector<std::string>& displays);
 
-/// First message of a session with this headset, from --sampling and --taa.
+/// --study and what belongs to it; null without. Errors: `option`, `output`.
+Expected<std::unique_ptr<Study>> make_study(const ClientOptions& options);
+
+/// First message of a session with this headset, from --sampling, or the study's reference, and --taa.
 Hello make_hello(const Display& headset, const ClientOptions& options, const std::string& token);
 
 /// --token and --fingerprint, or what the state folder of a server on this machine says. Errors: `option`,

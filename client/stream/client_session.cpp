@@ -14,6 +14,7 @@ using std::chrono::milliseconds;
 constexpr milliseconds kSendTimeout{2'000};
 constexpr milliseconds kPollInterval{100};
 constexpr std::int64_t kPingInterval_ns = 250'000'000;
+constexpr std::size_t kMostAnswers = 256;
 
 /// The server's no, for a person.
 Error refusal(const Refused& refused) {
@@ -56,6 +57,15 @@ void ClientSession::send(Track track) {
 
 void ClientSession::send(const FrameReport& report) {
     outbox_.put(report);
+}
+
+void ClientSession::send(const Choose& choice) {
+    outbox_.put(choice);
+}
+
+std::vector<Chosen> ClientSession::take_answers() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(answers_, {});
 }
 
 std::optional<Error> ClientSession::error() const {
@@ -165,6 +175,7 @@ Error ClientSession::serve(Channel& channel, const std::shared_ptr<const Welcome
         if (stopping_) return {ErrorCode::network, "stopped"};
         welcome_ = welcome;
         clock_filter_ = {};
+        answers_.clear();
         ++counters_.connections;
         serving_ = true;
     }
@@ -240,6 +251,13 @@ Expected<void> ClientSession::handle(Message message, std::size_t bytes, FrameDe
     if (const auto* pong = std::get_if<Pong>(&message)) {
         const std::lock_guard lock(mutex_);
         clock_filter_.add(*pong, now_ns());
+        return {};
+    }
+    if (auto* chosen = std::get_if<Chosen>(&message)) {
+        const std::lock_guard lock(mutex_);
+        // Answers without questions, and those that nobody fetches, are not collected for ever.
+        if (answers_.size() == kMostAnswers) answers_.erase(answers_.begin());
+        answers_.push_back(std::move(*chosen));
         return {};
     }
     if (const auto* bye = std::get_if<Bye>(&message)) {

@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "client/stream/clock_offset.h"
 #include "client/stream/frame_decoder.h"
@@ -58,6 +59,11 @@ public:
     /// Sends the Track as soon as the channel is free; its id is counted here. Lost while there is no connection.
     void send(Track track);
     void send(const FrameReport& report);
+    /// Asks for another method, which servers take whose Welcome says so. Lost when the connection is: the next one
+    /// begins with Hello's sampling.
+    void send(const Choose& choice);
+    /// What the server has answered to those since the last call.
+    std::vector<Chosen> take_answers();
 
     /// The newest frame that was not taken; empty after `timeout`, or when the session has ended.
     std::optional<ReceivedFrame> next_frame(std::chrono::milliseconds timeout) { return frames_.take(timeout); }
@@ -102,6 +108,7 @@ private:
     std::shared_ptr<const Welcome> welcome_;
     ClockFilter clock_filter_;
     ClientSessionCounters counters_;
+    std::vector<Chosen> answers_;
     std::uint64_t next_track_id_ = 1;
     bool serving_ = false;
 

@@ -99,6 +99,45 @@ TEST(ClientSession, TracksGoOutAndFramesComeIn) {
     EXPECT_FALSE(trial.session.error());
 }
 
+TEST(ClientSession, ChoicesGoOutInOrderAndAnswersComeIn) {
+    std::promise<std::vector<Choose>> asked;
+    Trial trial({[&](FakeConnection& server) {
+        server.welcome();
+        server.send(server.make_frame(1, 120, true));
+        std::vector<Choose> choices;
+        while (choices.size() < 2) {
+            const auto choice = server.expect<Choose>();
+            if (!choice) break;
+            choices.push_back(*choice);
+            server.send(Chosen{choice->id, choice->id == 5 ? "" : "there is none"});
+        }
+        asked.set_value(choices);
+        server.expect<Bye>();
+    }});
+    ASSERT_TRUE(trial.session.next_frame(kPatience));
+    trial.session.send(Choose{5, "27", true});
+    trial.session.send(Choose{6, "28", false});
+    auto choices_there = asked.get_future();
+    ASSERT_EQ(choices_there.wait_for(kPatience), std::future_status::ready);
+    const auto choices = choices_there.get();
+    ASSERT_EQ(choices.size(), 2U);
+    EXPECT_EQ(choices[0].sampling, "27");
+    EXPECT_TRUE(choices[0].only_prepare);
+    EXPECT_EQ(choices[1].sampling, "28");
+    EXPECT_FALSE(choices[1].only_prepare);
+    std::vector<Chosen> answers;
+    const std::int64_t end_ns = now_ns() + kPatience.count() * 1'000'000;
+    while (answers.size() < 2 && now_ns() < end_ns) {
+        for (Chosen& answer : trial.session.take_answers()) answers.push_back(std::move(answer));
+        std::this_thread::sleep_for(milliseconds(1));
+    }
+    ASSERT_EQ(answers.size(), 2U);
+    EXPECT_EQ(answers[0].id, 5U);
+    EXPECT_EQ(answers[0].problem, "");
+    EXPECT_EQ(answers[1].problem, "there is none");
+    EXPECT_TRUE(trial.session.take_answers().empty());
+}
+
 TEST(ClientSession, MapsOfWhatMovesAreUnpackedAndChecked) {
     constexpr std::size_t kBlocks = std::size_t{2} * FakeConnection::kEye_px / 4 * FakeConnection::kEye_px / 4;
     std::promise<FrameReport> too_short;

@@ -40,9 +40,10 @@ const std::map<std::string, std::set<std::string>> kMayInclude = {
     {"client/device", {"protocol/base", "protocol/message"}},
     {"client/stream", {"protocol/base", "protocol/message", "protocol/transport", "protocol/codec", "masks"}},
     {"client/present", {"protocol/base", "protocol/message", "protocol/codec", "protocol/gl", "masks"}},
+    {"client/study", {"protocol/base", "protocol/message"}},
     {"client",
      {"protocol/base", "protocol/message", "protocol/transport", "protocol/codec", "protocol/gl", "masks",
-      "client/device", "client/stream", "client/present"}},
+      "client/device", "client/stream", "client/present", "client/study"}},
 };
 
 std::string folder_of(const fs::path& relative) {
