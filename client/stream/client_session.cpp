@@ -268,6 +268,11 @@ Expected<void> ClientSession::handle(Message message, std::size_t bytes, FrameDe
 
 void ClientSession::handle_frame(Frame frame, std::size_t bytes, FrameDecoder& decoder,
                                  const std::shared_ptr<const Welcome>& welcome) {
+    if (decoder.repeats(frame)) {
+        const std::lock_guard lock(mutex_);
+        ++counters_.frames_repeated;
+        return;
+    }
     ReceivedFrame received;
     received.received_ns = now_ns();
     received.frame = std::move(frame);

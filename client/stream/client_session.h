@@ -35,8 +35,9 @@ struct ClientSessionCounters {
     std::uint64_t connections = 0;
     std::uint64_t frames_received = 0;
     std::uint64_t frames_undecodable = 0;
-    std::uint64_t frames_dropped = 0;  ///< replaced by a newer one before they could be shown
-    std::uint64_t tracks_dropped = 0;  ///< replaced by a newer one before they could be sent
+    std::uint64_t frames_repeated = 0;  ///< came again, or after a newer one: ignored
+    std::uint64_t frames_dropped = 0;   ///< replaced by a newer one before they could be shown
+    std::uint64_t tracks_dropped = 0;   ///< replaced by a newer one before they could be sent
     std::uint64_t bytes_received = 0;
 };
 

@@ -17,10 +17,15 @@ Expected<FrameDecoder> FrameDecoder::make(const std::string& codec, int width_px
 
 Expected<void> FrameDecoder::decode(ReceivedFrame& frame) {
     Frame& coded = frame.frame;
-    if (needs_keyframe_ && !coded.keyframe) {
+    const std::uint64_t missing = coded.id - std::exchange(newest_id_, coded.id) - 1;
+    if (!coded.keyframe && needs_keyframe_) {
         return fail(ErrorCode::protocol, "frame " + std::to_string(coded.id) + " is not the keyframe that is needed");
     }
     needs_keyframe_ = true;
+    if (!coded.keyframe && missing > 0) {
+        return fail(ErrorCode::protocol, std::to_string(missing) + " frames are missing before frame " +
+                                             std::to_string(coded.id) + "; a keyframe is needed");
+    }
     if (auto color = color_->decode(coded.color, frame.color); !color) return color;
     if (auto depth = depth_->decode(coded.depth, coded.near_m, frame.depth); !depth) return depth;
     if (frame.color.width_px != width_px_ || frame.color.height_px != height_px_ ||

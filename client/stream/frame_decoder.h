@@ -27,14 +27,18 @@ struct ReceivedFrame {
 };
 
 /// The two decoders of one connection. Frames refer to the ones before, so each is decoded, and after one that
-/// could not be, nothing is until the next keyframe. One thread at a time.
+/// could not be, or that never came, nothing is until the next keyframe. Their ids, which have no gaps, tell what is
+/// missing: the numbers in the streams come round again after 16 pictures. One thread at a time.
 class FrameDecoder {
 public:
     /// Errors: `option` when libavcodec has no decoder of that name.
     static Expected<FrameDecoder> make(const std::string& codec, int width_px, int height_px);
 
-    /// Decodes `frame.frame` into `frame.color`, `frame.depth` and `frame.moving_map`. Errors: `protocol`, also while a
-    /// keyframe is waited for.
+    /// Whether this frame came before, or comes after a newer one: it is of no use.
+    [[nodiscard]] bool repeats(const Frame& frame) const { return frame.id <= newest_id_; }
+
+    /// Decodes `frame.frame`, which does not repeat, into `frame.color`, `frame.depth` and `frame.moving_map`. Errors:
+    /// `protocol`, also while a keyframe is waited for.
     Expected<void> decode(ReceivedFrame& frame);
 
 private:
@@ -48,6 +52,7 @@ private:
     int width_px_;
     int height_px_;
     bool needs_keyframe_ = true;
+    std::uint64_t newest_id_ = 0;  ///< of all frames that came
 };
 
 }  // namespace macula
