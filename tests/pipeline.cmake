@@ -3,5 +3,5 @@
 include(${CMAKE_CURRENT_LIST_DIR}/ablation.cmake OPTIONAL)
 add_library(macula_pipeline STATIC pipeline/pipeline.cpp pipeline/row.cpp pipeline/scenario.cpp)
 target_link_libraries(macula_pipeline PUBLIC macula_method macula_service macula_present macula_device macula_offline
-    macula_reconstructor_factory macula_tracer macula_ablation)
+    macula_reconstructor_factory macula_tracer macula_ablation PRIVATE macula_test_scenes)
 target_compile_definitions(macula_pipeline PRIVATE MACULA_SOURCE_DIR="${PROJECT_SOURCE_DIR}")

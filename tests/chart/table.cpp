@@ -57,6 +57,7 @@ std::vector<std::pair<std::string, std::string>> columns(const Measurement& m) {
         {"warm", std::to_string(m.row.warm)},
         {"seed", std::to_string(m.row.seed)},
         {"latency", std::to_string(m.row.latency)},
+        {"mbits", std::to_string(m.row.mbits)},
         {"without", without},
         {"width_px", std::to_string(m.display.eye_width_px)},
         {"height_px", std::to_string(m.display.eye_height_px)},
@@ -89,7 +90,12 @@ std::string csv_header() {
 
 std::string csv_line(const Measurement& measurement) {
     std::string line;
-    for (const auto& [name, value] : columns(measurement)) line.append(name == "name" ? "" : ",").append(value);
+    for (const auto& [name, value] : columns(measurement)) {
+        line.append(name == "name" ? "" : ",");
+        // RFC 4180; laws that are given by their constants have commas between them.
+        const char* quote = value.find(',') == std::string::npos ? "" : "\"";
+        line.append(quote).append(value).append(quote);
+    }
     return line;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <filesystem>
 #include <utility>
 
@@ -15,6 +16,7 @@
 #include "server/offline/accumulate.h"
 #include "server/render/reconstructor_factory.h"
 #include "tests/pipeline/ablation.h"
+#include "tests/stability/scenes.h"
 #include "tests/support/plans.h"
 
 namespace macula::test {
@@ -32,11 +34,11 @@ kernels::TaaWeights taa_weights(const Row& row) {
     return ablated_taa_weights(weights, row.without);
 }
 
-/// The server's default for `vive`, in proportion to the pixels.
-std::int64_t bit_rate(const Display& display) {
+/// Row::mbits for this display.
+std::int64_t bit_rate(const Row& row, const Display& display) {
     constexpr double kVivePixels = 1512.0 * 1680.0;
     const double share = static_cast<double>(display.eye_width_px) * display.eye_height_px / kVivePixels;
-    return static_cast<std::int64_t>(share * static_cast<double>(VideoEncoderOptions().bit_rate_bps));
+    return static_cast<std::int64_t>(1e6 * row.mbits * std::sqrt(share));
 }
 
 Track track_of(const Moment& measured, const Moment& shown, std::uint64_t id) {
@@ -61,6 +63,7 @@ PerEye<Pose> eye_poses(const Display& display, const Pose& world_from_head) {
 }  // namespace
 
 Expected<Stage> make_stage(const std::string& scene, const std::set<std::string>& without) {
+    if (auto made = test_scene(scene)) return make_stage(std::move(made), without);
     auto loaded = load_scene(scene);
     if (!loaded) return tl::unexpected(loaded.error());
     return make_stage(loaded->scene, without);
@@ -128,7 +131,8 @@ Expected<Pipeline> Pipeline::make(const Stage& stage, const Row& row) {
     const int height_px = pipeline.display_.eye_height_px;
     const double rate_hz = pipeline.display_.refresh_hz;
     if (row.codec == "h264") {
-        auto encoder = make_video_encoder({"libx264", width_px, height_px, rate_hz, bit_rate(pipeline.display_), 0});
+        auto encoder =
+            make_video_encoder({"libx264", width_px, height_px, rate_hz, bit_rate(row, pipeline.display_), 0});
         if (!encoder) return tl::unexpected(encoder.error());
         pipeline.color_encoder_ = *std::move(encoder);
         auto decoder = make_video_decoder("h264");

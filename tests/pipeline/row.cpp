@@ -52,6 +52,7 @@ Expected<void> read_setting(std::string_view key, const std::string& text, Row& 
     if (key == "warm") return read_number(key, text, 0, row.warm);
     if (key == "seed") return read_number(key, text, std::uint32_t{1}, row.seed);
     if (key == "latency") return read_number(key, text, 0, row.latency);
+    if (key == "mbits") return read_number(key, text, 1, row.mbits);
     if (key == "without") {
         std::istringstream parts(text);
         for (std::string part; std::getline(parts, part, '+');) row.without.insert(part);
@@ -77,6 +78,7 @@ std::string Row::name() const {
     add("warm", std::to_string(warm), std::to_string(usual.warm));
     add("seed", std::to_string(seed), std::to_string(usual.seed));
     add("latency", std::to_string(latency), std::to_string(usual.latency));
+    add("mbits", std::to_string(mbits), std::to_string(usual.mbits));
     std::string off;
     for (const std::string& part : without) off.append(off.empty() ? "" : "+").append(part);
     add("without", off, "");
