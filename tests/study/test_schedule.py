@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """The schedule is the client's, and is what the paper describes."""
 
 import unittest
