@@ -7,7 +7,11 @@ namespace macula {
 double SceneClock::display_time_s(const Track& track, std::int64_t received_ns) {
     // Times of messages lie within +-2^60 ns, so none of these sums overflows.
     const std::int64_t offset_ns = received_ns - track.pose_time_ns;
-    if (!started_) {
+    // Tracks come in order, so a pose from before the last one's tells that the client's clock was set back: what is
+    // known of it no longer holds.
+    const bool set_back = track.pose_time_ns < pose_before_ns_;
+    pose_before_ns_ = track.pose_time_ns;
+    if (!started_ || set_back) {
         started_ = true;
         window_begin_ns_ = received_ns;
         offset_ns_ = offset_before_ns_ = offset_ns;

@@ -12,7 +12,8 @@ namespace macula {
 ///
 /// The offset of the clocks is taken from the Tracks themselves: the least of (received - pose time) over the last 5 to
 /// 10 s, since delays only ever add (RFC 5905). So scene time follows the client's display times exactly, without the
-/// network's jitter, and what moves lies where the client's reprojection expects it. One thread at a time.
+/// network's jitter, and what moves lies where the client's reprojection expects it. When the client's clock is set, in
+/// either direction, scene time goes on. One thread at a time.
 class SceneClock {
 public:
     static constexpr std::int64_t kWindow_ns = 5'000'000'000;
@@ -30,6 +31,7 @@ private:
     std::int64_t window_begin_ns_ = 0;
     std::int64_t offset_ns_ = 0;         ///< least of the present window
     std::int64_t offset_before_ns_ = 0;  ///< and of the one before
+    std::int64_t pose_before_ns_ = 0;    ///< of the last Track
     bool started_ = false;
 };
 
