@@ -47,9 +47,10 @@ glm::vec3 GazeHold::update(const GazeSample& sample, std::int64_t time_ns) {
     if (sample.confidence >= kLostBelow) {
         last_good_ = sample.direction;
         last_good_ns_ = time_ns;
-    } else if (time_ns > last_good_ns_ &&
-               static_cast<std::uint64_t>(time_ns) - static_cast<std::uint64_t>(last_good_ns_) >
-                   static_cast<std::uint64_t>(kMaxHold_ns)) {
+    } else if (time_ns < last_good_ns_) {
+        last_good_ns_ = time_ns;  // the clock was set back: how long the eye has been lost is counted anew
+    } else if (static_cast<std::uint64_t>(time_ns) - static_cast<std::uint64_t>(last_good_ns_) >
+               static_cast<std::uint64_t>(kMaxHold_ns)) {
         last_good_ = glm::vec3(0.0F, 0.0F, -1.0F);
     }
     return last_good_;

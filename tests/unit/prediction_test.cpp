@@ -111,6 +111,15 @@ TEST(GazeHold, PassesRawGazeHoldsItAndGivesUp) {
     EXPECT_EQ(hold.update({left, 0.8F}, 510 * kMs), left);
 }
 
+TEST(GazeHold, GivesUpInTimeThoughTheClockIsSetBack) {
+    GazeHold hold;
+    const glm::vec3 left = glm::normalize(glm::vec3(-1.0F, 0.0F, -1.0F));
+    hold.update({left, 1.0F}, 3'600'000 * kMs);
+    EXPECT_EQ(hold.update({left, 0.0F}, 0), left);
+    EXPECT_EQ(hold.update({left, 0.0F}, 500 * kMs), left);
+    EXPECT_EQ(hold.update({left, 0.0F}, 501 * kMs), glm::vec3(0.0F, 0.0F, -1.0F));
+}
+
 TEST(GazeHold, LooksAheadBeforeTheFirstGaze) {
     GazeHold hold;
     EXPECT_EQ(hold.update({glm::vec3(1.0F, 0.0F, 0.0F), 0.0F}, 7), glm::vec3(0.0F, 0.0F, -1.0F));
