@@ -37,16 +37,21 @@ void PacingState::reported(std::uint64_t frame_id) {
     reported_ = std::max(reported_, std::min(frame_id, encoded_));
 }
 
+void PacingState::give_up_reports() {
+    if (begun_ == encoded_) reported_ = encoded_;
+}
+
 bool Pacer::wait_for_room() {
     std::unique_lock lock(mutex_);
     while (!closed_) {
         const std::int64_t wait_ns = state_.next_begin_ns() - now_ns();
-        if (!state_.has_room())
-            changed_.wait(lock);
-        else if (wait_ns > 0)
+        if (!state_.has_room()) {
+            if (changed_.wait_for(lock, kReportLimit) == std::cv_status::timeout) state_.give_up_reports();
+        } else if (wait_ns > 0) {
             changed_.wait_for(lock, std::chrono::nanoseconds(wait_ns));
-        else
+        } else {
             return true;
+        }
     }
     return false;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <cstdint>
 #include <mutex>
@@ -34,6 +35,8 @@ public:
     /// The client has shown or given up this frame and, since frames arrive in order, all before it. An id that
     /// was never given counts as the newest that was.
     void reported(std::uint64_t frame_id);
+    /// Counts all frames in flight as lost, if none of them is still in the server.
+    void give_up_reports();
 
 private:
     std::int64_t period_ns_;
@@ -48,6 +51,10 @@ private:
 /// PacingState shared by the threads of a session.
 class Pacer {
 public:
+    /// When nothing has happened for so long, neither a report nor a stage, frames in flight or their reports are lost:
+    /// a session without room goes on.
+    static constexpr std::chrono::milliseconds kReportLimit{2'000};
+
     Pacer(double refresh_hz, int max_in_flight) : state_(refresh_hz, max_in_flight) {}
 
     /// Waits until a frame may begin; false when the pacer was closed.

@@ -90,6 +90,21 @@ TEST(Pacing, RendersNothingInVain) {
     EXPECT_TRUE(state.has_room());
 }
 
+TEST(Pacing, FramesInTheServerAreNotGivenUp) {
+    PacingState state(100.0, 2);
+    pass(state, 0);
+    state.begin(10 * kMs);
+    state.give_up_reports();
+    EXPECT_EQ(state.in_flight(), 2);
+    state.rendered();
+    state.taken();
+    state.encoded();
+    state.give_up_reports();
+    EXPECT_EQ(state.in_flight(), 0);
+    state.reported(1);  // late
+    EXPECT_EQ(state.in_flight(), 0);
+}
+
 TEST(Pacer, WakesWhenRoomComesAndWhenClosed) {
     Pacer pacer(1000.0, 1);
     ASSERT_TRUE(pacer.wait_for_room());
