@@ -143,11 +143,11 @@ void accumulate_row(const AccumulateRow& row) {
         HistoryTexel* __restrict history_out = row.history_out + begin;
         Rgba8* __restrict color_out = row.color_out + begin;
         for (int i = 0; i < kChunk; ++i) {
-            const vec4 history = bilinear(unpack_history(upper[2 * i].red_green, upper[2 * i].blue_precision),
-                                          unpack_history(upper[2 * i + 1].red_green, upper[2 * i + 1].blue_precision),
-                                          unpack_history(lower[2 * i].red_green, lower[2 * i].blue_precision),
-                                          unpack_history(lower[2 * i + 1].red_green, lower[2 * i + 1].blue_precision),
-                                          to.right[i], to.lower[i]);
+            const vec4 history = history_between(
+                unpack_history(upper[2 * i].red_green, upper[2 * i].blue_precision),
+                unpack_history(upper[2 * i + 1].red_green, upper[2 * i + 1].blue_precision),
+                unpack_history(lower[2 * i].red_green, lower[2 * i].blue_precision),
+                unpack_history(lower[2 * i + 1].red_green, lower[2 * i + 1].blue_precision), to.right[i], to.lower[i]);
             vec4 now = unpack_color(color[i]);
             now.w = precision[i];
             const vec4 result =

@@ -44,7 +44,7 @@ void main() {
         if (seen != slot) trust *= same_place(seen, landing.x, landing.y, land(slot_warp(seen), px, py, here));
     }
     int at = (eye * size.y + taps.y) * size.x + taps.x;
-    vec4 known = bilinear(history_at(at), history_at(at + 1), history_at(at + size.x), history_at(at + size.x + 1),
+    vec4 known = history_between(history_at(at), history_at(at + 1), history_at(at + size.x), history_at(at + size.x + 1),
                           taps.right, taps.lower);
     vec4 result = accumulate(weights, now, known, trust, low, high, box_slack(weights, count));
     history_out[(eye * size.y + y) * size.x + x] = uvec2(pack_red_green(result), pack_blue_precision(result));

@@ -118,6 +118,21 @@ KERNEL uint pack_blue_precision(vec4 history) {
     return rounded(history.z * kColorCode) | (rounded(history.w * kPrecisionCode) << 16);
 }
 
+/// Colour times precision, and precision.
+KERNEL vec4 weighed_history(vec4 history) {
+    return vec4(history.x * history.w, history.y * history.w, history.z * history.w, history.w);
+}
+
+/// The history between four texels: the mean of their colours, each as much as it is known. What has no precision, as
+/// pixels that the lens hides, is black and must not be seen in its neighbours when the head turns.
+KERNEL vec4 history_between(vec4 upper_left, vec4 upper_right, vec4 lower_left, vec4 lower_right, float right,
+                            float lower) {
+    vec4 sum = bilinear(weighed_history(upper_left), weighed_history(upper_right), weighed_history(lower_left),
+                        weighed_history(lower_right), right, lower);
+    float scale = 1.0F / max(sum.w, 1e-6F);
+    return vec4(sum.x * scale, sum.y * scale, sum.z * scale, sum.w);
+}
+
 /// How temporal accumulation weighs what it has. Colours are 0..255, precisions 0..1; 1 is that of the best history.
 struct TaaWeights {
     float traced;        ///< precision of a pixel that was traced in this frame: with 1 it weighs one half or more
