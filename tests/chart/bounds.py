@@ -154,7 +154,9 @@ def _motion_bounds() -> list[Bound]:
             f"Air Shed, pursuit: flicker of mesh {fraction} over that of tiles",
             "At an eighth of the edges a tile spans eight times the angle, so that its level changes in steps as much "
             f"coarser; half of what tiles reach at a quarter. Measured: {measured}.",
-            _ratio(SHED_PURSUIT.format(f"mesh:{fraction}/table"), SHED_PURSUIT.format(f"tiles:{fraction}/tiles"), "flicker"),
+            _ratio(
+                SHED_PURSUIT.format(f"mesh:{fraction}/table"), SHED_PURSUIT.format(f"tiles:{fraction}/tiles"), "flicker"
+            ),
             "times",
             least=5.0,
         )

@@ -88,9 +88,7 @@ def _selected(cases: Sequence[Case], selection: Selection, column: str) -> dict[
     return {scene: group for scene, group in largest.items() if len(group) > 1}
 
 
-def _draw(
-    path: Path, scenes: dict[str, list[Case]], panel: Callable[[Axes, list[Case]], list[Label]]
-) -> list[str]:
+def _draw(path: Path, scenes: dict[str, list[Case]], panel: Callable[[Axes, list[Case]], list[Label]]) -> list[str]:
     """One panel for each scene, which tells the labels to be placed once all panels have their size."""
     if not scenes:
         return []
@@ -130,8 +128,9 @@ def _points(axes: Axes, cases: list[Case], x: Figure, y: Figure) -> list[Label]:
         (x_mean, x_error), (y_mean, y_error) = _mean_and_error(case, x), _mean_and_error(case, y)
         color = _FAMILIES[_family(case)]
         axes.errorbar(
-            x_mean, y_mean, xerr=x_error, yerr=y_error, fmt="o", color=color, markersize=4.5, elinewidth=0.8, capsize=1.5
-        )
+            x_mean, y_mean, xerr=x_error, yerr=y_error, fmt="o", color=color, markersize=4.5, elinewidth=0.8,
+            capsize=1.5,
+        )  # fmt: skip
         labels.append(Label(x_mean, y_mean, _label(case), color, x_error, y_error))
     axes.set_xlabel(x.title)
     axes.set_ylabel(y.title)
@@ -152,7 +151,7 @@ def _logarithmic(axis: Axis) -> None:
     axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
 
 
-def _accuracy(figure: Figure) -> Callable[[Axes, list[Case]], None]:
+def _accuracy(figure: Figure) -> Callable[[Axes, list[Case]], list[Label]]:
     """Time against one figure, with the Pareto front as steps."""
 
     def panel(axes: Axes, cases: list[Case]) -> list[Label]:

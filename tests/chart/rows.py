@@ -50,10 +50,12 @@ def _rows(
     ]
 
 
-def _in_use(scene: str, scenario: str, tiles: tuple[str, ...], meshes: tuple[str, ...], settings: str, **kwargs: int):
-    """Rows with accumulation and coding: ours, and meshes with the paper's accumulation."""
-    return _rows(scene, scenario, tiles, settings, **kwargs) + _rows(
-        scene, scenario, meshes, f"taa=paper {settings}", **kwargs
+def _in_use(
+    scene: str, scenario: str, ours: tuple[str, ...], papers: tuple[str, ...], settings: str, **seeds: int
+) -> list[Planned]:
+    """Rows with accumulation: methods with Macula's, and methods with the paper's."""
+    return _rows(scene, scenario, ours, settings, **seeds) + _rows(
+        scene, scenario, papers, f"taa=paper {settings}", **seeds
     )
 
 
@@ -81,12 +83,11 @@ def quick_rows(recordings: bool) -> list[Planned]:
 def full_rows(recordings: bool) -> list[Planned]:
     """Accuracy of every method at the display's true size, clips at half its edges, both scenes."""
     half = "display=vive/2"
-    judged = (*TILES, FULL, *MESHES, *PAPER)
     rows: list[Planned] = []
     for scene in SCENES:
         whole = f"{BARE} display=vive frames=3 warm=1"
-        rows += _rows(scene, "still", judged, whole, seeds=3, jod_seeds=3)
-        rows += _rows(scene, "still", (*RIVALS, *OTHER_FILLS), whole, seeds=3, jod_seeds=1)
+        rows += _rows(scene, "still", (*TILES, *MESHES), whole, seeds=3, jod_seeds=3)
+        rows += _rows(scene, "still", (FULL, *PAPER, *RIVALS, *OTHER_FILLS), whole, seeds=3, jod_seeds=1)
         bare = f"{BARE} {half} warm=2"
         rows += _rows(scene, "pursuit", (TILES[3], MESHES[3]), bare, seeds=2, jod_seeds=1)
         rows += _rows(scene, "pursuit", (*TILES[:3], *MESHES[:3], PAPER_54), bare, seeds=2)

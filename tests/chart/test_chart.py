@@ -8,7 +8,7 @@ import unittest
 from pathlib import Path
 
 import rows
-from bounds import Bound, check
+from bounds import Bound, check, quick_bounds
 from charts import draw_all
 from columns import method_label
 from measured import Case, Measured, cases_of, read_rows, settings_of, write_rows
@@ -145,6 +145,13 @@ class Plans(unittest.TestCase):
         for plan in (rows.quick_rows, rows.full_rows):
             kept = [planned for planned in plan(True) if " recorded" not in planned.name]
             self.assertEqual(kept, plan(False))
+
+    def test_bounds_ask_for_rows_of_the_quick_run_alone(self) -> None:
+        figures = {column: 1.0 for column in ("psnr_db", "foveal_psnr_db", "flicker", "worst_flicker")}
+        for recordings in (True, False):
+            planned = [measured(row.name, **figures) for row in rows.quick_rows(recordings)]
+            for outcome in check(quick_bounds(recordings), cases_of(planned)):
+                self.assertFalse(math.isnan(outcome.figure), outcome.bound.name)
 
 
 class Charts(unittest.TestCase):
