@@ -4,7 +4,6 @@
 #include <array>
 #include <cstring>
 #include <exception>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -105,9 +104,8 @@ void repair_values(std::vector<std::uint8_t>& texels, Repaired&& repaired) {
 
 void repair_radiance(TextureImage& image) {
     if (image.type == TexelType::f32) {
-        repair_values<float>(image.texels, [](float value) {
-            return value > 0.0F ? std::min(value, std::numeric_limits<float>::max()) : 0.0F;
-        });
+        repair_values<float>(image.texels,
+                             [](float value) { return value > 0.0F ? std::min(value, kGreatestRadiance) : 0.0F; });
     } else if (image.type == TexelType::f16) {
         constexpr std::uint16_t kInfinity = 0x7C00;  // above it are the NaNs, and then all that is negative
         repair_values<std::uint16_t>(image.texels, [](std::uint16_t bits) {

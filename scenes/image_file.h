@@ -16,9 +16,13 @@ namespace macula {
 Expected<TextureImage> decode_image(std::span<const std::uint8_t> bytes, std::size_t max_side_px,
                                     std::size_t max_texels);
 
+/// Of an environment's texels: so much that sums over the largest map, times whatever reflects them, stay finite. The
+/// sun's disc, if an overcast sky is 1, is about 1e6.
+inline constexpr float kGreatestRadiance = 1e15F;
+
 /// Decodes a Radiance HDR or OpenEXR file in memory, for an environment: grey or RGB, f16 or f32 as the file has it;
 /// alpha and further channels are left out. Values that no light has are repaired: negative ones and NaN become 0,
-/// infinite ones the largest finite value of the type. Errors: as decode_image.
+/// greater ones than kGreatestRadiance become that, or, of f16, infinite ones 65504. Errors: as decode_image.
 Expected<TextureImage> decode_environment(std::span<const std::uint8_t> bytes, std::size_t max_side_px,
                                           std::size_t max_texels);
 

@@ -102,7 +102,7 @@ TEST(ImageFile, RadianceThatNoLightHasIsRepaired) {
         const Expected<TextureImage> image =
             decode_environment(encode_float_image("openexr", 3, rgb, half), kSide, kTexels);
         ASSERT_TRUE(image) << image.error().message;
-        EXPECT_EQ(stored_texel(*image, 0), vec4(0.0F, 0.0F, half ? 65504.0F : std::numeric_limits<float>::max(), 1.0F));
+        EXPECT_EQ(stored_texel(*image, 0), vec4(0.0F, 0.0F, half ? 65504.0F : kGreatestRadiance, 1.0F));
         EXPECT_EQ(stored_texel(*image, 1), vec4(0.0F, 2.0F, 0.0F, 1.0F));
     }
 }
