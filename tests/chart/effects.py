@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from columns import FLICKER, FLIP, FOVEA, JOD, PSNR, SSIM, TRANSIENT, WORST_FLICKER, Figure
+from columns import FLICKER, FLIP, FOVEA, JOD, KILOBYTES, PSNR, SSIM, TRACED, TRANSIENT, WORST_FLICKER, Figure
 from measured import Measured
 
 
@@ -34,11 +34,13 @@ def _time(column: str, heading: str) -> Watched:
     return Watched(Figure(column, heading, heading, 1, False), f"{heading}, %", True, 2.0, 1)
 
 
-# Times first. Of those, what is below 2 % is below what repeats differ by; a tenth of a decibel and 2 % of flicker are
-# far below what is seen; a JOD of .05 is what blurring the foveal degree costs.
+# Costs first. Of times, what is below 2 % is below what repeats differ by, and rays tell more exactly; a tenth of a decibel
+# and 2 % of flicker are far below what is seen; blurring the foveal degree costs .03 JOD.
 WATCHED = (
     _time("server_p50_ms", "server"),
     _time("accumulate_p50_ms", "accumulate"),
+    Watched(TRACED, "rays, %", True, 1.0, 1),
+    Watched(KILOBYTES, "kB, %", True, 2.0, 1),
     Watched(PSNR, "PSNR, dB", False, 0.1, 2),
     Watched(FOVEA, "fovea, dB", False, 0.1, 2),
     Watched(SSIM, "SSIM", False, 0.002, 4),

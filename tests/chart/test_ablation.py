@@ -59,8 +59,8 @@ class ReportTest(unittest.TestCase):
 
     def test_names_what_moves_and_what_does_not(self):
         text = ablation.report(self.rows(), ["a run"])
-        self.assertIn("| hysteresis | **none of 9** | |", text)
-        self.assertIn("| taa-clip | 1 of 9 | PSNR, dB: -3.00 ± 0.00 (box, pan) |", text)
+        self.assertIn("| hysteresis | **none of 11** | |", text)
+        self.assertIn("| taa-clip | 1 of 11 | PSNR, dB: -3.00 ± 0.00 (box, pan) |", text)
 
     def test_shows_the_time_of_the_program_that_a_model_is_in(self):
         text = ablation.report(self.rows(), [])

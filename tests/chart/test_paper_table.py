@@ -68,14 +68,14 @@ class ReportTest(unittest.TestCase):
             percent = "100" if ":full/" in name else name.partition("/")[0].rpartition(":")[2].removeprefix("paper-")
             share = int(percent) / 100 * (1.0 if "without" in name else 0.8)
             rows.append(row(name, 5.0 + 40.0 * share * (1 + number % 2 * 1e-9), share))
-        text = paper_table.report(rows, "")
+        text = paper_table.report(rows)
         self.assertIn("## Bunny Box", text)
         self.assertNotIn("## Air Shed", text)
         fits = [line for line in text.splitlines() if line.startswith(("| paper's masks", "| tiles |"))]
         self.assertEqual(len(fits), 3)
         for line in fits:
             self.assertIn("| 5.0 ± 0.0 | 40.0 ± 0.0 | 0.00 ± 0.00 |", line)
-        whole = next(line for line in text.splitlines() if line.startswith("| 18 |"))
+        whole = next(line for line in text.splitlines() if line.startswith("| 18 | 5.56 |"))
         self.assertIn("| 3.69 ± 0.00 |", whole)  # (5 + 40) / (5 + 40 * .18)
 
     def test_rows_of_a_round_are_measured_once(self):
