@@ -69,6 +69,30 @@ TEST(Parts, HelloSaysWhetherTheClientAccumulates) {
     }
 }
 
+TEST(ClientOptions, AStudyChoosesTheSampling) {
+    const std::string path = (std::filesystem::path(testing::TempDir()) / "macula_options_study.csv").string();
+    const auto parsed = parse({"--study", path, "--study-masks", "54", "18", "--study-seed", "9", "--study-spread", "1",
+                               "--study-reference", "tiles:full"});
+    ASSERT_TRUE(std::holds_alternative<ClientOptions>(parsed));
+    auto options = std::get<ClientOptions>(parsed);
+    EXPECT_EQ(options.study_settings.masks, (std::vector<std::string>{"54", "18"}));
+    EXPECT_EQ(options.study_settings.seed, 9U);
+    EXPECT_EQ(options.study_settings.spread_s, 1.0);
+    EXPECT_EQ(make_hello(load_display("desktop").value(), options, "").sampling, "tiles:full");
+    const auto study = make_study(options);
+    ASSERT_TRUE(study) << study.error().message;
+    EXPECT_NE(*study, nullptr);
+    std::filesystem::remove(path);
+
+    options.sampling = "27";
+    EXPECT_EQ(make_study(options).error().code, ErrorCode::option);
+    options.sampling.clear();
+    options.study = "/nonexistent/study.csv";
+    EXPECT_EQ(make_study(options).error().code, ErrorCode::output);
+    options.study.clear();
+    EXPECT_EQ(*make_study(options), nullptr);
+}
+
 TEST(ClientOptions, MistakesHaveTheirExitCode) {
     for (const std::vector<std::string>& wrong : {std::vector<std::string>{"--no-such-option"},
                                                   {"--taa-on", "fpga"},
