@@ -79,7 +79,8 @@ PURSUIT = "bunny-box pursuit {} taa=off codec=none display=vive/4 warm=2"
 SHED_PURSUIT = "air-shed pursuit {} taa=off codec=none display=vive/8 warm=2"
 RECORDED = "bunny-box recorded-gaze {} codec=none display=vive/8"
 RECORDED_PAPER = "bunny-box recorded-gaze {} taa=paper codec=none display=vive/8"
-SACCADE = "bunny-box saccade {} codec=none display=vive/8"
+CODED = "bunny-box recorded-gaze {} display=vive/8"
+SACCADE = "bunny-box saccade {} codec=none display=vive/8 warm=12"
 PAN = "bunny-box pan {} codec=none display=vive/8 frames=8"
 
 
@@ -168,8 +169,7 @@ def _motion_bounds() -> list[Bound]:
         *shed,
         Bound(
             "saccade: worst step of tiles 18",
-            "A fovea that lands is a larger change than any other; a history that is thrown away would pop at 20 ‰ or "
-            "more. Measured: 4.2 ‰.",
+            "A fovea that lands must not pop. Measured: .0057; without accumulation .019, the paper's 54 with its own .018.",
             _mean(SACCADE.format(rows.TILES[3]), "worst_flicker"),
             "",
             most=0.008,
@@ -183,7 +183,8 @@ def _motion_bounds() -> list[Bound]:
         ),
         Bound(
             "pan at 150°/s: PSNR of tiles 18 less that of every pixel traced",
-            "What reprojection cannot find again is as bad as one frame of 18 %. Measured: -5.4 dB.",
+            "What reprojection does not find again is interpolated from 18 % of one frame, which alone loses 4.7 dB where "
+            "nothing moves. Measured: -5.2 dB.",
             _difference(PAN.format(rows.TILES[3]), PAN.format(full), "psnr_db"),
             "dB",
             least=-6.5,
@@ -200,6 +201,13 @@ def _recorded_bounds() -> list[Bound]:
             _ratio(ours, paper, "flicker"),
             "times",
             most=0.5,
+        ),
+        Bound(
+            "recorded gaze, coded: the same ratio",
+            "The encoder's noise comes on top of both. Measured: .43.",
+            _ratio(CODED.format(rows.TILES[3]), CODED.format(f"{rows.PAPER_54} taa=paper"), "flicker"),
+            "times",
+            most=0.8,
         ),
         Bound(
             "recorded gaze: PSNR of tiles 18 less that of the paper's 18",
