@@ -36,7 +36,7 @@ double ms(std::int64_t time_ns) {
 /// A client that tracks a still head and shows what comes.
 class Visit {
 public:
-    Visit(const RunningServer& server, LinkFaults faults, int width_px = 128, int height_px = 128)
+    Visit(const RunningServer& server, const LinkFaults& faults, int width_px = 128, int height_px = 128)
         : width_px_(width_px),
           height_px_(height_px),
           session_(

@@ -130,7 +130,8 @@ Watched play(const Network& network) {
     Server server(shots);
     Client client(shots);
     std::vector<Frame> sent;
-    std::vector<std::vector<std::uint64_t>> failed(kShots + kReportFrames);  // by the step at which it is known
+    // By the step at which it is known.
+    std::vector<std::vector<std::uint64_t>> failed(std::size_t{kShots} + kReportFrames);
     Watched watched;
     for (int i = 0; i < kShots; ++i) {
         for (const std::uint64_t id : failed[static_cast<std::size_t>(i)]) server.learn_failure(id);
@@ -218,8 +219,8 @@ TEST(Loss, OfEachSecondFrame) {
            static_cast<double>(frames_until_good(watched, kEvent + kLossy - 1)), Side::at_most, kWay + 1.0,
            "as after a single loss"},
           [&watched] { return watched.worst; });
-    check({name, "keyframes sent", static_cast<double>(watched.keyframes), Side::at_most, kLossy / kWay + 1.0,
-           "one for each way there and back"});
+    check({name, "keyframes sent", static_cast<double>(watched.keyframes), Side::at_most,
+           static_cast<double>(kLossy) / kWay + 1.0, "one for each way there and back"});
 }
 
 TEST(Loss, OfTheFirstKeyframe) {

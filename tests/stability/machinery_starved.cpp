@@ -30,8 +30,8 @@ ColorImage zone_plate(int i) {
     ColorImage picture(kWidth_px, kHeight_px);
     for (int y = 0; y < kHeight_px; ++y) {
         for (int x = 0; x < kWidth_px; ++x) {
-            const float dx = static_cast<float>(x - kWidth_px / 2 - i);
-            const float dy = static_cast<float>(y - kHeight_px / 2);
+            const float dx = static_cast<float>(x - i) - 0.5F * kWidth_px;
+            const float dy = static_cast<float>(y) - 0.5F * kHeight_px;
             const float value = 0.5F + 0.5F * std::cos(0.0055F * (dx * dx + dy * dy));
             picture.at(x, y) = rgba(value, value, value);
         }
