@@ -85,6 +85,16 @@ def scene_table(scene: str, changes: dict[Key, list[Change]]) -> str:
     return "\n".join(lines)
 
 
+def settings_of(scene: str, pairs: dict[Key, list[Pair]]) -> str:
+    """What the scene's pairs were measured under; the number of repeats is the least of any row of its table."""
+    of_scene = [each for key, each in pairs.items() if key[0] == scene]
+    row = of_scene[0][0].on
+    return (
+        f"`{row.text('method')}`, display {row.text('display')}, codec {row.text('codec')}, {row.text('frames')} frames "
+        f"after {row.text('warm')}, {min(map(len, of_scene))} pairs or more of each."
+    )
+
+
 def verdicts(changes: dict[Key, list[Change]]) -> str:
     """For each model, where it moves a figure most, in parts of what is to be ignored; or that it moves nothing."""
     lines = ["| model | figures that move | most |", "|---|---|---|"]
@@ -105,19 +115,21 @@ def verdicts(changes: dict[Key, list[Change]]) -> str:
 REMARKS = """\
 Every row of a table is the change when that one model is off: the same row of the chart with it off, less (or in percent
 of) the one with everything on that was measured right before it. Each pair is repeated with other seeds, that is other
-gazes and directions; ± is the standard error of the mean over them. Bold: more than twice that, and more than is to be
-ignored, which is 2 % of a time, of bytes or of flicker, 1 % of the rays to first hits, .1 dB, .002 of SSIM or FLIP, .05 JOD. What the models are:
+gazes and directions; ± is the standard error of the mean over them. Bold: beyond the 95 % of Student's t for so many
+pairs, and more than is to be ignored, which is 2 % of a time, of bytes or of flicker, 1 % of the rays to first hits, .1 dB,
+.002 of SSIM or FLIP, .05 JOD; of so many figures a few are bold by chance. What the models are:
 [ablation.h](../../pipeline/ablation.h). A positive time is what the model saves, a negative one what it costs; of models
 in the client's history, the server's time is not shown, and of the others not the client's. Without a codec, kilobytes
 are those of depth. `SCENE/4` are scenes of the stability suite, with details as fine as the pixels of vive/4."""
 
 
 def report(rows: Sequence[Measured], notes: Sequence[str]) -> str:
-    changes = changes_of(pairs_of(rows))
-    parts = ["# Ablation", "\n".join(f"- {note}" for note in notes), REMARKS, "## What moves, and what does not"]
+    pairs = pairs_of(rows)
+    changes = changes_of(pairs)
+    parts = ["# Ablation", REMARKS, *notes, "## What moves, and what does not"]
     parts.append(verdicts(changes))
     for scene in dict.fromkeys(key[0] for key in changes):
-        parts += [f"## {scene}", scene_table(scene, changes)]
+        parts += [f"## {scene}", settings_of(scene, pairs), scene_table(scene, changes)]
     return "\n\n".join(parts) + "\n"
 
 
@@ -152,13 +164,14 @@ def parse_arguments(arguments: Sequence[str]) -> argparse.Namespace:
     parser.add_argument("--with-jod", action="store_true", help="judge by FovVideoVDP too, where it is installed")
     parser.add_argument("--csv", type=Path, help="also write the rows to this file")
     parser.add_argument("--from-csv", type=Path, help="measure nothing: the tables of these rows")
+    parser.add_argument("--note", action="append", default=[], help="a sentence for the tables' head")
     parser.add_argument("--out", type=Path, default=RESULTS / "ablation.md")
     return parser.parse_args(arguments)
 
 
 def main() -> int:
     options = parse_arguments(sys.argv[1:])
-    notes: list[str] = []
+    notes: list[str] = options.note
 
     def save(columns: list[str], rows: list[Measured]) -> None:
         if options.csv:
@@ -174,12 +187,6 @@ def main() -> int:
         except RowError as error:
             print(f"tests/chart: {error}", file=sys.stderr)
             return 1
-    first = rows[0]
-    notes.insert(
-        0,
-        f"`{first.text('method')}`, display {first.text('display')}, codec {first.text('codec')}, "
-        f"{first.text('frames')} frames after {first.text('warm')}",
-    )
     options.out.parent.mkdir(parents=True, exist_ok=True)
     options.out.write_text(report(rows, notes))
     return 0

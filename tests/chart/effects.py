@@ -60,6 +60,15 @@ class Pair:
     off: Measured
 
 
+# Student's t at 95 %, both sides, by pairs; the last for as many or more.
+_T_95 = {2: 12.71, 3: 4.30, 4: 3.18, 5: 2.78, 6: 2.57, 8: 2.36, 12: 2.20, 20: 2.09}
+
+
+def _t_95(pairs: int) -> float:
+    """Infinite for a single pair, which tells no error."""
+    return _T_95[max(count for count in _T_95 if count <= pairs)] if pairs > 1 else math.inf
+
+
 @dataclass(frozen=True)
 class Change:
     """Mean over pairs and its standard error, NaN of a single pair."""
@@ -67,12 +76,12 @@ class Change:
     watched: Watched
     mean: float
     error: float
+    pairs: int
 
     @property
     def counts(self) -> bool:
-        """Larger than what is to be ignored and than twice its error."""
-        certain = math.isnan(self.error) or abs(self.mean) > 2 * self.error
-        return abs(self.mean) >= self.watched.least and certain
+        """Larger than what is to be ignored, and than what chance makes of it in 19 of 20 cases."""
+        return abs(self.mean) >= self.watched.least and abs(self.mean) > _t_95(self.pairs) * self.error
 
     @property
     def text(self) -> str:
@@ -88,9 +97,9 @@ class Change:
 def change_of(watched: Watched, pairs: Sequence[Pair]) -> Change:
     changes = [change for pair in pairs if not math.isnan(change := watched.change(pair.on, pair.off))]
     if not changes:
-        return Change(watched, math.nan, math.nan)
+        return Change(watched, math.nan, math.nan, 0)
     mean = math.fsum(changes) / len(changes)
     if len(changes) < 2:
-        return Change(watched, mean, math.nan)
+        return Change(watched, mean, math.nan, 1)
     squares = math.fsum((change - mean) ** 2 for change in changes)
-    return Change(watched, mean, math.sqrt(squares / (len(changes) - 1) / len(changes)))
+    return Change(watched, mean, math.sqrt(squares / (len(changes) - 1) / len(changes)), len(changes))

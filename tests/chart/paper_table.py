@@ -114,11 +114,11 @@ def times_table(paper: Published, costs: Sequence[Cost]) -> str:
     swapped = paper.swapped()
 
     def cells(percent: int) -> list[str]:
-        ours = [f"{cost.ms(percent):.1f} of {100 * cost.share(percent):.1f} %" for cost in costs]
+        ours = [f"{cost.ms(percent):.1f} ({100 * cost.share(percent):.1f} %)" for cost in costs]
         return [f"{percent}", f"{paper.ms[percent]:.1f}", f"{swapped.ms[percent]:.1f}", *ours]
 
     heads = ["samples, %", "paper, as printed, ms", "rows swapped, ms"]
-    return _table([*heads, *(f"{cost.family.title}, ms of traced" for cost in costs)], cells)
+    return _table([*heads, *(f"{cost.family.title}, ms (traced)" for cost in costs)], cells)
 
 
 def speed_ups_table(paper: Published, costs: Sequence[Cost]) -> str:
@@ -175,10 +175,10 @@ asked for. Lines are fitted to the share of the buffer that was traced, the pape
 are ratios within a round; ± is the standard error over rounds."""
 
 
-def report(rows: Sequence[Measured]) -> str:
+def report(rows: Sequence[Measured], notes: Sequence[str] = ()) -> str:
     cases = cases_of(rows)
     made = f"`tests/chart/tables.sh paper --display {rows[0].text('display')} --rounds {len(cases[0].rows)}` makes it."
-    parts = ["# The paper's Table 1", made, REMARKS]
+    parts = ["# The paper's Table 1", " ".join((made, *notes)), REMARKS]
     for paper in TABLE_1:
         if not any(case.text("scene") == paper.scene for case in cases):
             continue
@@ -197,6 +197,7 @@ def main() -> int:
     parser.add_argument("--scenes", nargs="+", default=[table.scene for table in TABLE_1])
     parser.add_argument("--csv", type=Path, help="also write the rows to this file")
     parser.add_argument("--from-csv", type=Path, help="measure nothing: the table of these rows")
+    parser.add_argument("--note", action="append", default=[], help="a sentence for the table's head")
     parser.add_argument("--out", type=Path, default=RESULTS / "paper-table.md")
     options = parser.parse_args()
     if options.from_csv:
@@ -215,7 +216,7 @@ def main() -> int:
             print(f"tests/chart: {error}", file=sys.stderr)
             return 1
     options.out.parent.mkdir(parents=True, exist_ok=True)
-    options.out.write_text(report(rows))
+    options.out.write_text(report(rows, options.note))
     return 0
 
 

@@ -28,8 +28,11 @@ class ChangeTest(unittest.TestCase):
         change = change_of(watched("psnr_db"), self.pairs("psnr_db", [30.0, 31.0, 32.0], [29.0, 30.5, 31.5]))
         self.assertAlmostEqual(change.mean, -2.0 / 3.0)
         self.assertAlmostEqual(change.error, 1.0 / 6.0)  # deviation .2887 over the root of 3
+        self.assertFalse(change.counts)  # 4 times its error; three pairs ask for 4.3
+        self.assertEqual(change.text, "-0.67 ± 0.17")
+        change = change_of(watched("psnr_db"), self.pairs("psnr_db", [30.0, 31.0, 32.0], [29.0, 30.1, 31.0]))
         self.assertTrue(change.counts)
-        self.assertEqual(change.text, "**-0.67 ± 0.17**")
+        self.assertEqual(change.text, "**-0.97 ± 0.03**")
 
     def test_of_times_is_in_percent(self):
         change = change_of(watched("server_p50_ms"), self.pairs("server_p50_ms", [10.0, 20.0], [11.0, 22.0]))
@@ -39,6 +42,9 @@ class ChangeTest(unittest.TestCase):
     def test_does_not_count_if_it_is_small_or_uncertain(self):
         self.assertFalse(change_of(watched("psnr_db"), self.pairs("psnr_db", [30.0, 31.0], [30.05, 31.05])).counts)
         self.assertFalse(change_of(watched("psnr_db"), self.pairs("psnr_db", [30.0, 31.0], [29.0, 32.1])).counts)
+
+    def test_of_a_single_pair_is_never_certain(self):
+        self.assertFalse(change_of(watched("psnr_db"), self.pairs("psnr_db", [30.0], [20.0])).counts)
 
     def test_leaves_out_what_is_not_there(self):
         pairs = self.pairs("flicker", [0.01, math.inf, 0.0], [0.02, 0.01, 0.01])
