@@ -132,8 +132,8 @@ TEST(Late, FramesComeAsOftenAsThreeInFlightAllow) {
         int jitter_ms;
         milliseconds watched;
     };
-    for (const Delay& delay : {Delay{"50ms", 50, 0, 800ms}, Delay{"200ms", 200, 0, 1200ms},
-                               Delay{"1000ms", 1000, 0, 3100ms}, Delay{"jitter-0-to-200ms", 0, 200, 1500ms}}) {
+    for (const Delay& delay : {Delay{"50ms", 50, 0, 500ms}, Delay{"200ms", 200, 0, 800ms},
+                               Delay{"1000ms", 1000, 0, 3100ms}, Delay{"jitter-0-to-200ms", 0, 200, 900ms}}) {
         if (delay.least_ms >= 1000 && !whole_suite()) continue;
         LinkFaults faults;
         faults.frame = [delay](int frame) {
