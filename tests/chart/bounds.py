@@ -93,9 +93,9 @@ def _sampling_bounds() -> list[Bound]:
     against_mesh = [
         Bound(
             f"{scene}, still: PSNR of tiles {fraction} less that of the mesh",
-            "A mesh's sites are placed for one gaze, tiles take a prefix of one order tile by tile; this is the most that "
-            f"it may cost without accumulation, .25 dB below what was measured, {measured:+.2f} dB. The fewer the pixels, "
-            "the more it is: half as much at vive/2.",
+            "A mesh's sites are placed for one gaze, tiles take a prefix of one order tile by tile; this is the most "
+            f"that it may cost without accumulation, .25 dB below what was measured, {measured:+.2f} dB. The fewer the "
+            "pixels, the more it is: half as much at vive/2.",
             _difference(
                 STILL.format(scene, f"tiles:{fraction}/tiles"), STILL.format(scene, f"mesh:{fraction}/table"), "psnr_db"
             ),
@@ -169,7 +169,8 @@ def _motion_bounds() -> list[Bound]:
         *shed,
         Bound(
             "saccade: worst step of tiles 18",
-            "A fovea that lands must not pop. Measured: .0057; without accumulation .019, the paper's 54 with its own .018.",
+            "A fovea that lands must not pop. Measured: .0057; without accumulation .019; the paper's 54 with its own "
+            "accumulation .018.",
             _mean(SACCADE.format(rows.TILES[3]), "worst_flicker"),
             "",
             most=0.008,
@@ -183,8 +184,8 @@ def _motion_bounds() -> list[Bound]:
         ),
         Bound(
             "pan at 150°/s: PSNR of tiles 18 less that of every pixel traced",
-            "What reprojection does not find again is interpolated from 18 % of one frame, which alone loses 4.7 dB where "
-            "nothing moves. Measured: -5.2 dB.",
+            "What reprojection does not find again is interpolated from 18 % of one frame, which alone loses 4.7 dB "
+            "where nothing moves. Measured: -5.2 dB.",
             _difference(PAN.format(rows.TILES[3]), PAN.format(full), "psnr_db"),
             "dB",
             least=-6.5,

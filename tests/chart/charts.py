@@ -198,7 +198,8 @@ def _rings(axes: Axes, cases: list[Case]) -> list[Label]:
             shown, [values[ring] for ring in shown],
             yerr=[errors[ring] if errors[ring] < 0.5 * values[ring] else 0.0 for ring in shown],
             label=_label(case) + ("" if shown else ": none"), color=_shade(cases, case),
-            marker=_RING_MARKERS[index % len(_RING_MARKERS)], markersize=4.5, linewidth=1.1, elinewidth=0.8, capsize=1.5,
+            marker=_RING_MARKERS[index % len(_RING_MARKERS)], markersize=4.5, linewidth=1.1, elinewidth=0.8,
+            capsize=1.5,
         )  # fmt: skip
     _logarithmic(axes.yaxis)
     axes.set_xlim(-0.3, len(columns.RINGS) - 0.7)

@@ -64,8 +64,8 @@ def load_flip() -> Metric:
 
 
 def load_fvvdp() -> Metric:
-    """FovVideoVDP (Mantiuk et al. 2021) with the true gaze: just-objectionable differences, 10 is equal, and the mean of
-    its transient channel, 0 is equal. Raises ImportError without the package pyfvvdp, which is CC BY-NC: a tool from
+    """FovVideoVDP (Mantiuk et al. 2021) with the true gaze: just-objectionable differences, 10 is equal, and the mean
+    of its transient channel, 0 is equal. Raises ImportError without the package pyfvvdp, which is CC BY-NC: a tool from
     outside, no part of Macula."""
     import pyfvvdp
     import torch

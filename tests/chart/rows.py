@@ -67,7 +67,7 @@ def quick_rows(recordings: bool) -> list[Planned]:
     bare = f"{BARE} {small}"
     every = (*TILES, FULL, *MESHES, PAPER_54, PAPER_18, *RIVALS, *OTHER_FILLS)
     rows = _rows("bunny-box", "still", every, f"{bare} frames=4 warm=1", seeds=3)
-    # Tiles are as many degrees wider as pixels are fewer, and then coarser steps flicker more: a quarter, not an eighth.
+    # Where pixels are fewer, tiles are wider, and their coarser steps flicker more: a quarter, not an eighth.
     rows += _rows("bunny-box", "pursuit", (*TILES, *MESHES), f"{BARE} display=vive/4 warm=2", seeds=2)
     # At an eighth of the edges the encoder has 3 kB a frame, and its noise flickers more than what is sampled.
     uncoded = f"codec=none {small}"

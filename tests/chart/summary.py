@@ -22,7 +22,7 @@ def summary(
     parts += [
         "## Rows",
         "Each is the mean of its repeats, ± the standard error of the mean. `tests/chart/run.sh --rows 'NAME'` makes a "
-        "row again; ` seed=2` after the name makes its second repeat. Columns are explained in `tests/chart/README.md`.",
+        "row again; ` seed=2` after the name makes its second repeat. Columns: `tests/chart/README.md`.",
     ]
     groups: dict[tuple[str, ...], list[Case]] = {}
     for case in cases:
