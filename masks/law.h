@@ -117,7 +117,7 @@ struct SamplingPreset {
 
 /// Parses what users write:
 ///   full                      every visible pixel
-///   P                         percentage 1..99 by Geisler and Perry's law, exponent 2: "54", "27.5"
+///   P                         percentage 1..99 by Geisler and Perry's law, exponent 1.5: "54", "27.5"
 ///   paper-54 -41 -27 -18      the published masks: exponent 1 (masks/laws.md says how their shapes were read)
 ///   NAME                      a named law with its published constants: "watson"
 ///   NAME-P                    a named law stretched to a percentage: "hvvr-27"

@@ -24,6 +24,9 @@ std::optional<double> share_of(std::string_view text) {
     return *percent / 100.0;
 }
 
+/// Of presets that are percentages (law.h).
+constexpr double kPercentageExponent = 1.5;
+
 /// How a published mask differs from the law of the 54 % mask.
 struct PaperMask {
     std::string_view name;
@@ -142,6 +145,7 @@ Expected<SamplingPreset> parse_sampling(const std::string& text) {
         preset = *std::move(constants);
     } else if (const auto share = share_of(text)) {
         preset.emplace().share = *share;
+        preset->law.exponent = kPercentageExponent;
     } else if (const auto mask = parse_paper_mask(text)) {
         preset = mask;
     } else {

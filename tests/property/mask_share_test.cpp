@@ -71,10 +71,14 @@ TEST(MaskShare, OutOfReachIsAnError) {
     }
 }
 
-/// Geisler and Perry's e2 for the published shares in flat geometry, as found by an implementation of its own.
+/// Geisler and Perry's e2, exponent 2, for the published shares in flat geometry, as found by an implementation of its
+/// own.
 TEST(MaskLaw, HasTheKnownConstants) {
     const Display vive = load_display("vive").value();
-    for (const auto& [sampling, e2_deg] : {std::pair("54", 5.83), std::pair("41", 4.65), {"27", 3.40}, {"18", 2.57}}) {
+    for (const auto& [sampling, e2_deg] : {std::pair("geisler-perry-54", 5.83),
+                                           std::pair("geisler-perry-41", 4.65),
+                                           {"geisler-perry-27", 3.40},
+                                           {"geisler-perry-18", 2.57}}) {
         const AcuityLaw law = mask_law(recipe_of(vive, sampling, Placement::white_noise));
         EXPECT_NEAR(2.3 * law.stretch, e2_deg, 0.02 * e2_deg) << sampling;
     }
