@@ -88,9 +88,8 @@ INSTANTIATE_TEST_SUITE_P(
         Flicker{"saccade", 1.3, 1.4, "levels change once, within three frames: a quarter above measured"},
         Flicker{"lost", 0.84, 1.4,
                 "a lost gaze is held, and found elsewhere changes levels once: a quarter above measured"},
-        Flicker{
-            "edge", 1.65, 1.37,
-            "levels follow the eye at 90 deg/s or more until it leaves the field, then stay: a quarter above measured"},
+        Flicker{"edge", 1.65, 1.37,
+                "levels follow the eye at 450 deg/s until it leaves the field, then stay: a quarter above measured"},
         Flicker{"pan", 16.6, 13.4, "every pixel moves by two or more a frame: a quarter above measured"},
         Flicker{"slow-pan", 2.0, 1.5, "edges cross pixels a tenth at a time: a quarter above measured"},
         Flicker{"sway", 8.9, 7.0, "near posts cross the picture: a quarter above measured"},
