@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds, and runs every test: the whole suite as users build it, its fast part under
-# ASan+UBSan, of that the tests of threaded code under TSan, and the lint.
+# Installs what is missing, builds, and runs every test: the whole suite as users build it, the quick chart of speed against
+# accuracy, whose bounds must hold, the suite's fast part under ASan+UBSan, the tests of threaded code under TSan, and the
+# lint.
 set -euo pipefail
 usage() {
     cat <<USAGE
-usage: tests/run.sh [--only release|asan|tsan|lint]...
-  --only PART   run this part alone; may be repeated (default: all four)
+usage: tests/run.sh [--only release|chart|lint|asan|tsan]...
+  --only PART   run this part alone; may be repeated (default: all five)
 USAGE
 }
 parts=()
@@ -16,7 +17,7 @@ while [ $# -gt 0 ]; do
         *) echo "tests/run.sh: unknown option '$1'" >&2; usage >&2; exit 2 ;;
     esac
 done
-[ ${#parts[@]} -gt 0 ] || parts=(release lint asan tsan)
+[ ${#parts[@]} -gt 0 ] || parts=(release chart lint asan tsan)
 
 cd "$(dirname "$0")/.."
 deploy/install-packages.sh
@@ -31,6 +32,7 @@ for part in "${parts[@]}"; do
             cmake --build --preset "$part" --target "${targets[$part]}" -- -j "$jobs" --quiet
             ctest --preset "$part" -j "$jobs"
             ;;
+        chart) tests/chart/run.sh --quick ;;
         lint) tests/lint.sh ;;
         *) echo "tests/run.sh: no part '$part'" >&2; usage >&2; exit 2 ;;
     esac
