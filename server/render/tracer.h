@@ -55,8 +55,8 @@ struct TraceCounts {
 /// How a tracer is made.
 struct TracerOptions {
     int bounces = 1;  ///< reflections in a row, 0 or more; light through glass and past coverage is not counted
-    /// A reflection or refraction of which less than this share of its light would reach the eye is not traced, but
-    /// taken from the environment. 0: all are traced.
+    /// A reflection or refraction that brings less than this share of its light to the eye comes from the environment.
+    /// 0: all are traced; at 1 / 2 / 4 / 8 bounces that takes 1.01 / 1.09 / 1.36 / 2.3 times as long on Bunny Box.
     float bounce_bound = 0.02F;
     int light_samples = 4;  ///< shadow rays to a light with an extent: 1, 4, 16 or 64
     /// Normals that a footprint averages away widen the lobe. False: they are lost; for measuring what they are worth.

@@ -17,6 +17,10 @@ for scene in "--scene air-shed" "--scene bunny-box" "--scene bunny-box --plain";
 done
 step "Code for features that the scene does not need, forced on (time_with_over_without, by bit of scenes/needs.h)"
 $bin/trace_bench --display desktop --plain --benchmark_filter=unused_feature 2>/dev/null
+step "Tracing without the bounce bound (time_without_over_with, 1 / 2 / 4 / 8 bounces)"
+for scene in bunny-box air-shed; do
+    $bin/trace_bench --display desktop --scene $scene --benchmark_filter=unbounded_bounces 2>/dev/null
+done
 step "Cost of a sample and memory of a triangle, 45 k to 5 M triangles"
 $bin/scaling_bench 2>/dev/null
 step "Shimmer and accuracy of filtered textures"

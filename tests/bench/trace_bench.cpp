@@ -13,6 +13,7 @@
 #include <cstdlib>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -52,7 +53,7 @@ struct Frame {
     PerEye<Samples> samples;
 
     /// `share` of the buffer's pixels, hidden ones included, is traced; 1: every visible pixel.
-    Frame(const Scene& scene, const Display& display, std::shared_ptr<const TileTables> tables, double share) {
+    Frame(const Scene& scene, const Display& display, const std::shared_ptr<const TileTables>& tables, double share) {
         for (const Eye eye : {kLeftEye, kRightEye}) {
             views[eye] = {scene.world_from_start * display.eyes[eye].head_from_eye, display.eyes[eye].tangents,
                           display.eye_width_px, display.eye_height_px};
@@ -147,8 +148,23 @@ BENCHMARK(trace_against_bare)
     ->Iterations(12)
     ->Unit(benchmark::kMillisecond);
 
-/// What code for a feature costs where the scene has none of it: time with it forced, as a share of the time without,
-/// taken in turn; the median of the pairs. `range(0)` is the bit of Need.
+/// Processor time of `one` over that of `other` for the same tasks, taken in turn; the median of the pairs.
+double time_over(benchmark::State& state, const Tracer& one, const Tracer& other, std::span<const TraceTask> tasks) {
+    std::vector<double> ratios;
+    for (auto _ : state) {
+        const test::Stopwatch one_watch;
+        one.trace(tasks);
+        const double one_s = one_watch.cpu_s();
+        const test::Stopwatch other_watch;
+        other.trace(tasks);
+        ratios.push_back(one_s / other_watch.cpu_s());
+    }
+    std::nth_element(ratios.begin(), ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2), ratios.end());
+    return ratios[ratios.size() / 2];
+}
+
+/// What code for a feature costs where the scene has none of it: time with it forced, as a share of the time without.
+/// `range(0)` is the bit of Need.
 void unused_feature(benchmark::State& state) {
     std::shared_ptr<const Scene> scene;
     auto frame = load_frame(state, scene, 27);
@@ -159,20 +175,25 @@ void unused_feature(benchmark::State& state) {
     const auto without = make_embree_tracer(scene, arguments().options);
     if (!with || !without) return state.SkipWithError("the tracer failed");
     if ((scene_needs(*scene).needs & forced.forced_features) != 0) return state.SkipWithError("the scene needs it");
-    const auto tasks = frame->tasks();
-    std::vector<double> ratios;
-    for (auto _ : state) {
-        const test::Stopwatch with_watch;
-        (*with)->trace(tasks);
-        const double with_s = with_watch.cpu_s();
-        const test::Stopwatch without_watch;
-        (*without)->trace(tasks);
-        ratios.push_back(with_s / without_watch.cpu_s());
-    }
-    std::nth_element(ratios.begin(), ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2), ratios.end());
-    state.counters["time_with_over_without"] = ratios[ratios.size() / 2];
+    state.counters["time_with_over_without"] = time_over(state, **with, **without, frame->tasks());
 }
 BENCHMARK(unused_feature)->DenseRange(0, kNeedCount - 1)->Iterations(21)->Unit(benchmark::kMillisecond);
+
+/// What the bounce bound saves: time without it, as a share of the time with it. `range(0)` is TracerOptions::bounces.
+void unbounded_bounces(benchmark::State& state) {
+    std::shared_ptr<const Scene> scene;
+    auto frame = load_frame(state, scene, 27);
+    if (!frame) return;
+    TracerOptions bounded = arguments().options;
+    bounded.bounces = static_cast<int>(state.range(0));
+    TracerOptions unbounded = bounded;
+    unbounded.bounce_bound = 0.0F;
+    const auto with = make_embree_tracer(scene, bounded);
+    const auto without = make_embree_tracer(scene, unbounded);
+    if (!with || !without) return state.SkipWithError("the tracer failed");
+    state.counters["time_without_over_with"] = time_over(state, **without, **with, frame->tasks());
+}
+BENCHMARK(unbounded_bounces)->RangeMultiplier(2)->Range(1, 8)->Iterations(15)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace macula
