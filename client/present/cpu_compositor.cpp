@@ -23,11 +23,8 @@ constexpr int kRowsPerTask = 8;
 
 /// Memory of one row in work.
 struct RowScratch {
-    explicit RowScratch(int width)
-        : precision(static_cast<std::size_t>(width)), slack(static_cast<std::size_t>(width)), box(width) {}
+    explicit RowScratch(int width) : precision(static_cast<std::size_t>(width)) {}
     std::vector<float> precision;
-    std::vector<float> slack;
-    ColorBox box;
 };
 
 class CpuCompositor final : public Compositor {
@@ -119,9 +116,7 @@ private:
                             RowScratch& scratch) {
         const int eye_x = static_cast<int>(eye) * width_;
         fill_sampling_row(weights_, *frame.sampling[eye], frame.rank_tile, frame.rank_tile_size_px, y,
-                          hidden_row(eye, y), scratch.precision, scratch.slack);
-        scratch.box.fill(frame.color->row(std::max(y - 1, 0)) + eye_x, frame.color->row(y) + eye_x,
-                         frame.color->row(std::min(y + 1, height_ - 1)) + eye_x, width_);
+                          hidden_row(eye, y), scratch.precision);
         AccumulateRow row;
         row.y = y;
         row.width = width_;
@@ -132,9 +127,6 @@ private:
         row.color = frame.color->row(y) + eye_x;
         row.depth = depth_.row(y / kBlock_px) + eye_x / kBlock_px;
         row.precision = scratch.precision.data();
-        row.slack = scratch.slack.data();
-        row.low = scratch.box.low();
-        row.high = scratch.box.high();
         row.depth_before = eye_depth(depth_before_, eye);
         row.moves = motion_.accumulates() && weights_.knows_motion != 0;
         if (row.moves) {

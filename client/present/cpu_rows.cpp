@@ -35,33 +35,6 @@ void for_chunks(int width, Chunk&& chunk) {
     for (int begin = 0; begin < width; begin += kChunk) chunk(std::max(0, std::min(begin, width - kChunk)));
 }
 
-}  // namespace
-
-void ColorBox::fill(const Rgba8* above, const Rgba8* here, const Rgba8* below, int width) {
-    auto* low = reinterpret_cast<std::uint8_t*>(low_.data());
-    auto* high = reinterpret_cast<std::uint8_t*>(high_.data());
-    const auto* a = reinterpret_cast<const std::uint8_t*>(above);
-    const auto* b = reinterpret_cast<const std::uint8_t*>(here);
-    const auto* c = reinterpret_cast<const std::uint8_t*>(below);
-    const int bytes = 4 * width;
-    for (int i = 0; i < bytes; ++i) {
-        low[4 + i] = std::min(std::min(a[i], b[i]), c[i]);
-        high[4 + i] = std::max(std::max(a[i], b[i]), c[i]);
-    }
-    const auto last = static_cast<std::size_t>(width);
-    low_[0] = low_[1];
-    high_[0] = high_[1];
-    low_[last + 1] = low_[last];
-    high_[last + 1] = high_[last];
-    // Pixel x of the box replaces column x - 1, which no later one reads.
-    for (int i = 0; i < bytes; ++i) {
-        low[i] = std::min(std::min(low[i], low[i + 4]), low[i + 8]);
-        high[i] = std::max(std::max(high[i], high[i + 4]), high[i + 8]);
-    }
-}
-
-namespace {
-
 /// Where the pixels of a chunk lie in the view before. `warp_of` gives the warp of each.
 template <class WarpOf>
 void land_before(const AccumulateRow& row, int begin, WarpOf&& warp_of, const Lanes<float>& depth, Landings& to,
@@ -137,9 +110,6 @@ void accumulate_row(const AccumulateRow& row) {
         }
         const Rgba8* __restrict color = row.color + begin;
         const float* __restrict precision = row.precision + begin;
-        const float* __restrict slack = row.slack + begin;
-        const std::uint32_t* __restrict low = row.low + begin;
-        const std::uint32_t* __restrict high = row.high + begin;
         HistoryTexel* __restrict history_out = row.history_out + begin;
         Rgba8* __restrict color_out = row.color_out + begin;
         for (int i = 0; i < kChunk; ++i) {
@@ -150,8 +120,7 @@ void accumulate_row(const AccumulateRow& row) {
                 unpack_history(lower[2 * i + 1].red_green, lower[2 * i + 1].blue_precision), to.right[i], to.lower[i]);
             vec4 now = unpack_color(color[i]);
             now.w = precision[i];
-            const vec4 result =
-                accumulate(weights, now, history, trust[i], unpack_color(low[i]), unpack_color(high[i]), slack[i]);
+            const vec4 result = accumulate(weights, now, history, trust[i]);
             history_out[i].red_green = pack_red_green(result);
             history_out[i].blue_precision = pack_blue_precision(result);
             color_out[i] = pack_color(result);

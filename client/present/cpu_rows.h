@@ -3,7 +3,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 #include "client/present/taa_kernel.h"
 #include "protocol/base/image.h"
@@ -30,19 +29,6 @@ struct EyeColor {
     int stride = 0;
 };
 
-/// Smallest and largest of the colours around each pixel of a row, channel by channel: 3x3, edges repeated.
-class ColorBox {
-public:
-    explicit ColorBox(int width) : low_(static_cast<std::size_t>(width) + 2), high_(low_.size()) {}
-    void fill(const Rgba8* above, const Rgba8* here, const Rgba8* below, int width);
-    [[nodiscard]] const std::uint32_t* low() const { return low_.data(); }
-    [[nodiscard]] const std::uint32_t* high() const { return high_.data(); }
-
-private:
-    std::vector<std::uint32_t> low_;
-    std::vector<std::uint32_t> high_;
-};
-
 /// One eye's blocks of slots (taa_kernel.h), laid out as its depth, and their warps.
 struct EyeSlots {
     const std::uint8_t* blocks = nullptr;
@@ -61,9 +47,6 @@ struct AccumulateRow {
     const Rgba8* color = nullptr;
     const float* depth = nullptr;  ///< of the row's blocks
     const float* precision = nullptr;
-    const float* slack = nullptr;
-    const std::uint32_t* low = nullptr;
-    const std::uint32_t* high = nullptr;
     EyeDepth depth_before;
     bool moves = false;  ///< whether the following are given
     EyeSlots now;

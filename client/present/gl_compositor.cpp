@@ -33,9 +33,8 @@ struct Parameters {
     kernels::TaaWeights weights;
     std::int32_t moves;
     std::int32_t exact;
-    std::array<std::int32_t, 2> padding;
 };
-static_assert(sizeof(Parameters) == 2 * 64 + 16 + 48);
+static_assert(sizeof(Parameters) == 2 * 64 + 16 + 32);
 
 /// Four bytes a word.
 std::vector<std::uint32_t> words_of(std::span<const std::uint8_t> bytes) {

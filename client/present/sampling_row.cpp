@@ -8,7 +8,7 @@ namespace macula {
 
 void fill_sampling_row(const kernels::TaaWeights& weights, const EyeSamplingMessage& sampling,
                        std::span<const std::uint8_t> rank_tile, int rank_tile_size_px, int y,
-                       std::span<const std::uint8_t> hidden, std::span<float> precision, std::span<float> slack) {
+                       std::span<const std::uint8_t> hidden, std::span<float> precision) {
     const int width = static_cast<int>(precision.size());
     const int shift_x = sampling.phase_px.x % kTileEdge_px;
     const int tile_y = (y + sampling.phase_px.y % kTileEdge_px) / kTileEdge_px;
@@ -20,13 +20,11 @@ void fill_sampling_row(const kernels::TaaWeights& weights, const EyeSamplingMess
         const int begin = std::max(0, tile_x * kTileEdge_px - shift_x);
         const int end = std::min(width, (tile_x + 1) * kTileEdge_px - shift_x);
         const int count = kLevelCounts[levels[tile_x]];
-        const float tile_slack = kernels::box_slack(weights, count);
         // A tile is one cell of the rank tile, so its ranks stand in a row.
         const std::uint8_t* rank = ranks + (begin + sampling.phase_px.x) % rank_tile_size_px;
         for (int x = begin; x < end; ++x) {
             precision[static_cast<std::size_t>(x)] = kernels::new_precision(
                 weights, rank[x - begin], count, sampling.exact, hidden[static_cast<std::size_t>(x)] != 0);
-            slack[static_cast<std::size_t>(x)] = tile_slack;
         }
     }
 }

@@ -15,17 +15,6 @@ void main() {
     int rank = int((ranks[rank_index / 4] >> (8 * (rank_index % 4))) & 255U);
 
     vec4 now = unpack_color(color[color_index(x, y)]);
-    vec4 low = now;
-    vec4 high = now;
-    for (int dy = -1; dy <= 1; ++dy) {
-        for (int dx = -1; dx <= 1; ++dx) {
-            int column = min(max(x + dx, 0), size.x - 1);
-            int row = min(max(y + dy, 0), size.y - 1);
-            vec4 neighbour = unpack_color(color[color_index(column, row)]);
-            low = min(low, neighbour);
-            high = max(high, neighbour);
-        }
-    }
     now.w = new_precision(weights, rank, count, (exact >> eye & 1) != 0, is_hidden(x, y));
 
     float px = float(x) + 0.5;
@@ -46,7 +35,7 @@ void main() {
     int at = (eye * size.y + taps.y) * size.x + taps.x;
     vec4 known = history_between(history_at(at), history_at(at + 1), history_at(at + size.x), history_at(at + size.x + 1),
                           taps.right, taps.lower);
-    vec4 result = accumulate(weights, now, known, trust, low, high, box_slack(weights, count));
+    vec4 result = accumulate(weights, now, known, trust);
     history_out[(eye * size.y + y) * size.x + x] = uvec2(pack_red_green(result), pack_blue_precision(result));
     color_out[color_index(x, y)] = pack_color(result);
 }

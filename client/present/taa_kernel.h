@@ -140,8 +140,6 @@ struct TaaWeights {
     float limit;         ///< largest precision of the history; 0 for no history
     float moving_loss;   ///< share of its precision that the history loses when it is resampled half-way
     float disparity_px;  ///< depths whose landings differ by more contradict each other
-    float slack;         ///< widening of the colour box, for each pixel of sample distance beyond one
-    float least_slack;   ///< widening of the colour box everywhere; with 255 nothing lies outside
     int knows_motion;    ///< 0: what moves by itself is accumulated as if it stood still
 };
 
@@ -153,12 +151,6 @@ KERNEL float new_precision(KERNEL_IN(TaaWeights) weights, int rank, int count, b
     if (exact) traced_share = rank < count ? 1.0F : 0.0F;
     float seen = weights.traced * traced_share + weights.interpolated * (1.0F - traced_share);
     return hidden ? 0.0F : seen;
-}
-
-/// By how much the colour box is widened in a tile with `count` samples, whose mean distance is 16 / sqrt(count).
-/// Between sparse samples there may be what the box of interpolated colours does not know.
-KERNEL float box_slack(KERNEL_IN(TaaWeights) weights, int count) {
-    return weights.least_slack + weights.slack * (16.0F / sqrt(float(max(count, 4))) - 1.0F);
 }
 
 /// How much of the history is to be believed: nothing where the surface that was seen there is another one. Two inverse
@@ -200,15 +192,13 @@ KERNEL bool in_sight(float here, int there, float still_here) {
     return there != 0 || here >= still_here;
 }
 
-/// Mean of what is new and what was known, weighted by precision (the static case of a Kalman filter), after the
-/// history was brought into the box [low - slack, high + slack] of the colours around the new pixel. A new pixel of
-/// precision 0 is one that the lens never shows: it is taken as it is, and not believed later.
-KERNEL vec4 accumulate(KERNEL_IN(TaaWeights) weights, vec4 now, vec4 history, float trust, vec4 low, vec4 high,
-                       float slack) {
+/// Mean of what is new and what was known, weighted by precision (the static case of a Kalman filter). Colours do not
+/// decide what is known: a surface whose light changes fades to its new colour as its pixels are seen again. A new
+/// pixel of precision 0 is one that the lens never shows: it is taken as it is, and not believed later.
+KERNEL vec4 accumulate(KERNEL_IN(TaaWeights) weights, vec4 now, vec4 history, float trust) {
     float known = now.w > 0.0F ? history.w * trust : 0.0F;
     float share = now.w > 0.0F ? now.w / (now.w + known) : 1.0F;
-    vec4 clipped = max(min(history, high + vec4(slack)), low - vec4(slack));
-    vec4 result = clipped + (now - clipped) * share;
+    vec4 result = history + (now - history) * share;
     result.w = min(now.w + known, weights.limit);
     return result;
 }

@@ -13,8 +13,6 @@ inline kernels::TaaWeights default_taa_weights() {
             .limit = 1.0F,
             .moving_loss = 0.5F,
             .disparity_px = 1.5F,
-            .slack = 128.0F,
-            .least_slack = 0.0F,
             .knows_motion = 1};
 }
 
@@ -26,8 +24,6 @@ inline kernels::TaaWeights paper_taa_weights() {
             .limit = 1.0F,
             .moving_loss = 0.0F,
             .disparity_px = std::numeric_limits<float>::max(),
-            .slack = 0.0F,
-            .least_slack = 255.0F,
             .knows_motion = 0};
 }
 

@@ -24,12 +24,11 @@ MODELS = (
     "footprint-mips",
     "normal-roughness",
     "hysteresis",
-    "taa-clip",
     "eccentricity-weight",
     "bounce-bound",
 )
 # Of these only the client's history knows.
-IN_HISTORY = ("taa-clip", "eccentricity-weight")
+IN_HISTORY = ("eccentricity-weight",)
 
 SCENES = ("bunny-box", "air-shed", "gloss/4", "moving/4")
 

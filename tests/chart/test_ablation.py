@@ -60,28 +60,29 @@ class ReportTest(unittest.TestCase):
         for seed in (1, 2, 3):
             on = {"server_p50_ms": 10.0 + seed, "psnr_db": 30.0 + seed, "accumulate_p50_ms": 5.0}
             rows += [row("box", "", seed, **on), row("box", "hysteresis", seed, **on)]
-            rows += [row("box", "", seed, **on), row("box", "taa-clip", seed, **(on | {"psnr_db": 27.0 + seed}))]
+            off = on | {"psnr_db": 27.0 + seed}
+            rows += [row("box", "", seed, **on), row("box", "eccentricity-weight", seed, **off)]
         return rows
 
     def test_names_what_moves_and_what_does_not(self):
         text = ablation.report(self.rows(), ["a run"])
         self.assertIn("| hysteresis | **none of 11** | |", text)
-        self.assertIn("| taa-clip | 1 of 11 | PSNR, dB: -3.00 ± 0.00 (box, pan) |", text)
+        self.assertIn("| eccentricity-weight | 1 of 11 | PSNR, dB: -3.00 ± 0.00 (box, pan) |", text)
 
     def test_shows_the_time_of_the_program_that_a_model_is_in(self):
         text = ablation.report(self.rows(), [])
         self.assertIn("| hysteresis | pan | +0.0 ± 0.0 |  | +0.00 ± 0.00 |", text)
-        self.assertIn("| taa-clip | pan |  | +0.0 ± 0.0 | **-3.00 ± 0.00** |", text)
+        self.assertIn("| eccentricity-weight | pan |  | +0.0 ± 0.0 | **-3.00 ± 0.00** |", text)
 
     def test_refuses_halves_that_do_not_belong_together(self):
         with self.assertRaises(ValueError):
             ablation.pairs_of(self.rows()[1:])
 
     def test_names_of_rows_alternate(self):
-        names = ablation.names_of("box", "pan", "tiles:27 display=vive/8", ("hysteresis", "taa-clip"), 2)
+        names = ablation.names_of("box", "pan", "tiles:27 display=vive/8", ("hysteresis", "eccentricity-weight"), 2)
         self.assertEqual(names[0], names[2])
         self.assertEqual(names[0], "box pan tiles:27 display=vive/8 seed=2")
-        self.assertEqual(names[3], "box pan tiles:27 display=vive/8 seed=2 without=taa-clip")
+        self.assertEqual(names[3], "box pan tiles:27 display=vive/8 seed=2 without=eccentricity-weight")
 
 
 if __name__ == "__main__":

@@ -9,8 +9,6 @@
 namespace macula::test {
 namespace {
 
-constexpr float kWholeRange = 255.0F;  // of a colour, as the TAA kernel counts
-
 /// Precision that makes a new pixel weigh .1 against a settled history, whose precision is 1.
 constexpr float kTenth = 1.0F / 9.0F;
 
@@ -61,9 +59,9 @@ private:
 }  // namespace
 
 const std::vector<std::string>& ablation_names() {
-    static const std::vector<std::string> kNames = {"hidden-area",         "true-tangents", "footprint-mips",
-                                                    "normal-roughness",    "hysteresis",    "taa-clip",
-                                                    "eccentricity-weight", "bounce-bound"};
+    static const std::vector<std::string> kNames = {"hidden-area",      "true-tangents", "footprint-mips",
+                                                    "normal-roughness", "hysteresis",    "eccentricity-weight",
+                                                    "bounce-bound"};
     return kNames;
 }
 
@@ -112,7 +110,6 @@ std::shared_ptr<const Tracer> ablated_tracer(std::shared_ptr<const Tracer> trace
 }
 
 kernels::TaaWeights ablated_taa_weights(kernels::TaaWeights weights, const std::set<std::string>& without) {
-    if (has(without, "taa-clip")) weights.least_slack = kWholeRange;
     if (has(without, "eccentricity-weight") && weights.traced != weights.interpolated) {
         weights.traced = kTenth;
         weights.interpolated = kTenth;

@@ -22,7 +22,6 @@ namespace macula::test {
 //   footprint-mips      textures, normal maps too, are read at full resolution, not under the footprint of the sample
 //   normal-roughness    roughness does not grow by what a footprint averages over of a normal map
 //   hysteresis          tiles change their level at once, in both directions
-//   taa-clip            the history is not clipped to the colours around the new pixel
 //   eccentricity-weight every pixel of a new frame counts the same for the history, traced or not: a tenth of the
 //                       result once the history has settled, the usual weight (Karis 2014, "High-Quality Temporal
 //                       Supersampling")

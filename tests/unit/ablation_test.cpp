@@ -40,8 +40,7 @@ bool same(const EyeDisplay& a, const EyeDisplay& b) {
 
 bool same(const kernels::TaaWeights& a, const kernels::TaaWeights& b) {
     return a.traced == b.traced && a.interpolated == b.interpolated && a.limit == b.limit &&
-           a.moving_loss == b.moving_loss && a.disparity_px == b.disparity_px && a.slack == b.slack &&
-           a.least_slack == b.least_slack && a.knows_motion == b.knows_motion;
+           a.moving_loss == b.moving_loss && a.disparity_px == b.disparity_px && a.knows_motion == b.knows_motion;
 }
 
 bool same(const TracerOptions& a, const TracerOptions& b) {
@@ -67,7 +66,7 @@ TEST(Ablation, OfNothingOrOfAModelElsewhereChangesNothing) {
         if (name != "normal-roughness" && name != "bounce-bound") {
             EXPECT_TRUE(same(ablated_tracer_options(without), {}));
         }
-        if (name != "taa-clip" && name != "eccentricity-weight") {
+        if (name != "eccentricity-weight") {
             EXPECT_TRUE(same(ablated_taa_weights(default_taa_weights(), without), default_taa_weights()));
         }
     }
@@ -134,12 +133,7 @@ TEST(Ablation, OfHysteresisForgetsWhereTheGazeWas) {
 }
 
 TEST(Ablation, OfTheWeightsLeavesTheOthersAsTheyAre) {
-    kernels::TaaWeights weights = ablated_taa_weights(default_taa_weights(), {"taa-clip"});
-    EXPECT_GE(kernels::box_slack(weights, 256), 255.0F);
-    weights.least_slack = default_taa_weights().least_slack;
-    EXPECT_TRUE(same(weights, default_taa_weights()));
-
-    weights = ablated_taa_weights(default_taa_weights(), {"eccentricity-weight"});
+    kernels::TaaWeights weights = ablated_taa_weights(default_taa_weights(), {"eccentricity-weight"});
     for (const int rank : {0, 200}) {
         // A settled history takes a tenth of what is new, wherever that comes from.
         const float now = kernels::new_precision(weights, rank, 100, true, false);
@@ -150,8 +144,7 @@ TEST(Ablation, OfTheWeightsLeavesTheOthersAsTheyAre) {
     EXPECT_TRUE(same(weights, default_taa_weights()));
 
     // The paper's TAA tells neither apart.
-    EXPECT_TRUE(
-        same(ablated_taa_weights(paper_taa_weights(), {"taa-clip", "eccentricity-weight"}), paper_taa_weights()));
+    EXPECT_TRUE(same(ablated_taa_weights(paper_taa_weights(), {"eccentricity-weight"}), paper_taa_weights()));
 }
 
 constexpr int kSize = 16;

@@ -34,7 +34,7 @@ Scenario scenario(const std::string& name, int frames, std::uint32_t seed = 1) {
 TEST(Row, NamesSayAllAndNoMoreThanIsNeeded) {
     for (const char* name : {"bunny-box still tiles:27/tiles", "air-shed pan mesh:paper-54/raster taa=paper seed=3",
                              "wires/8 slow-pan layers:27/bilinear taa=off codec=none display=vive/8 frames=6 warm=0",
-                             "bunny-box sway tiles:18/tiles latency=3 mbits=100 without=hysteresis+taa-clip"}) {
+                             "bunny-box sway tiles:18/tiles latency=3 mbits=100 without=bounce-bound+hysteresis"}) {
         const auto row = parse_row(name);
         ASSERT_TRUE(row) << row.error().message;
         EXPECT_EQ(row->name(), name);
