@@ -1,6 +1,8 @@
 #include "client/options.h"
 
 #include <charconv>
+#include <iterator>
+#include <sstream>
 
 #include "protocol/base/command_line.h"
 #include "protocol/transport/tls.h"
@@ -8,6 +10,12 @@
 namespace macula {
 
 namespace {
+
+std::string joined(const std::vector<std::string>& names) {
+    std::string text;
+    for (const std::string& name : names) text.append(text.empty() ? "" : " ").append(name);
+    return text;
+}
 
 /// The detection experiment's options; their own group, since nobody else needs them.
 void add_study_options(CLI::App& app, ClientOptions& options) {
@@ -20,8 +28,15 @@ void add_study_options(CLI::App& app, ClientOptions& options) {
     app.add_option("--study-reference", study.reference, "What is shown first, a sampling as above")
         ->capture_default_str()
         ->group(kGroup);
-    app.add_option("--study-masks", study.masks, "What is then shown in random order, one or more samplings")
-        ->capture_default_str()
+    // One text, not a list: a list's default value would be printed as what cannot be read back.
+    app.add_option_function<std::string>(
+           "--study-masks",
+           [&study](const std::string& text) {
+               std::istringstream names(text);
+               study.masks.assign(std::istream_iterator<std::string>(names), {});
+           },
+           "What is then shown in random order: samplings, with spaces between them")
+        ->default_str(joined(study.masks))
         ->group(kGroup);
     const auto add_seconds = [&](const char* name, double& seconds, const char* what) {
         app.add_option(name, seconds, what)->check(CLI::Range(0.0, 1e6))->capture_default_str()->group(kGroup);

@@ -85,7 +85,7 @@ protected:
 
 TEST_F(StudyProgram, MasksReplaceOneAnotherAndKeysAreLogged) {
     const auto client = start("while sleep .2; do echo; done",
-                              "--study-masks 54 layers:18 mesh:27/raster --study-begin 1 --study-interval .8 "
+                              "--study-masks '54 layers:18 mesh:27/raster' --study-begin 1 --study-interval .8 "
                               "--study-spread .2 --study-length 4.5");
     EXPECT_EQ(client->wait(), 0) << client->output();
     const auto rows = table();
@@ -120,7 +120,7 @@ TEST_F(StudyProgram, MasksReplaceOneAnotherAndKeysAreLogged) {
 }
 
 TEST_F(StudyProgram, WhatCannotBeHadIsSaid) {
-    const auto unknown = start("true", "--study-masks 27 nonsense");
+    const auto unknown = start("true", "--study-masks '27 nonsense'");
     EXPECT_EQ(unknown->wait(), static_cast<int>(ErrorCode::refused)) << unknown->output();
     EXPECT_NE(unknown->output().find("nonsense"), std::string::npos) << unknown->output();
     const auto two = start("true", "--sampling 27");

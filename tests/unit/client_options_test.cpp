@@ -71,7 +71,7 @@ TEST(Parts, HelloSaysWhetherTheClientAccumulates) {
 
 TEST(ClientOptions, AStudyChoosesTheSampling) {
     const std::string path = (std::filesystem::path(testing::TempDir()) / "macula_options_study.csv").string();
-    const auto parsed = parse({"--study", path, "--study-masks", "54", "18", "--study-seed", "9", "--study-spread", "1",
+    const auto parsed = parse({"--study", path, "--study-masks", "54 18", "--study-seed", "9", "--study-spread", "1",
                                "--study-reference", "tiles:full"});
     ASSERT_TRUE(std::holds_alternative<ClientOptions>(parsed));
     auto options = std::get<ClientOptions>(parsed);
