@@ -22,12 +22,12 @@
 #include "masks/display.h"
 #include "masks/law.h"
 #include "masks/tile_sampler.h"
-#include "scenes/noise.h"
 #include "scenes/pattern.h"
 #include "scenes/shapes.h"
 #include "server/kernels/color.h"
 #include "server/render/reconstructor.h"
 #include "server/render/tracer.h"
+#include "tests/support/bumps.h"
 #include "tests/support/plans.h"
 
 namespace macula {
@@ -46,27 +46,6 @@ TextureUse tiled(int image, float repeats) {
     use.image = image;
     use.uv_scale_rotation = glm::vec4(repeats, 0.0F, 0.0F, repeats);
     return use;
-}
-
-/// Bumps of noise, as a normal map.
-TextureImage bumps(int size_px, float steepness) {
-    TextureImage image;
-    image.name = "bumps";
-    image.width_px = image.height_px = size_px;
-    image.channels = 3;
-    const auto height = [size_px](int x, int y) {
-        const float cells = 64.0F;
-        return value_noise(static_cast<float>(x) * cells / static_cast<float>(size_px),
-                           static_cast<float>(y) * cells / static_cast<float>(size_px), 64, 17);
-    };
-    for (int y = 0; y < size_px; ++y)
-        for (int x = 0; x < size_px; ++x) {
-            const glm::vec2 slope(height(x + 1, y) - height(x - 1, y), height(x, y + 1) - height(x, y - 1));
-            const glm::vec3 normal = glm::normalize(glm::vec3(slope * -steepness, 1.0F)) * 0.5F + 0.5F;
-            for (int c = 0; c < 3; ++c)
-                image.texels.push_back(static_cast<std::uint8_t>(std::lround(normal[c] * 255.0F)));
-        }
-    return image;
 }
 
 void add(Scene& scene, Mesh mesh, Material material) {
@@ -94,7 +73,7 @@ std::shared_ptr<const Scene> make_scene() {
     Material metal;
     metal.base_color = glm::vec4(0.9F, 0.8F, 0.6F, 1.0F);
     metal.roughness = 0.25F;
-    metal.normal_texture = tiled(add_image(*scene, bumps(512, 4.0F)), 6.0F);
+    metal.normal_texture = tiled(add_image(*scene, test::bumps(512, 64, 4.0F)), 6.0F);
     add(*scene, make_quad({-4.0F, 6.0F, -7.0F}, {8.0F, 0.0F, 0.0F}, {0.0F, -7.6F, 0.0F}), metal);
     Light sun;
     sun.direction = glm::normalize(glm::vec3(0.3F, -1.0F, -0.8F));

@@ -219,7 +219,8 @@ def _shade(cases: list[Case], case: Case) -> tuple[float, float, float]:
 
 
 def _stages(axes: Axes, cases: list[Case]) -> list[Label]:
-    """Where the time of a stereo frame goes: p50 of each stage, mean of the repeats."""
+    """Where the time of a stereo frame goes: p50 of each stage, mean of the repeats; of cases that have times."""
+    cases = [case for case in cases if not math.isnan(case.mean("trace_p50_ms"))]
     left = [0.0] * len(cases)
     for stage, color in zip(columns.STAGES, _STAGE_COLORS, strict=True):
         widths = [case.mean(f"{stage}_p50_ms") for case in cases]

@@ -6,7 +6,7 @@ usage() {
     cat <<USAGE
 usage: tests/chart/run.sh [--quick | --full | --rows NAME... | --from-csv FILE] [--out DIR] [--with-fvvdp]
   --quick          small pictures, under 5 minutes; fails if a bound breaks (default)
-  --full           the display's true size, both scenes, about an hour
+  --full           the display's true size, both scenes, half an hour and more
   --rows NAME...   these rows alone; summary.md has the names
   --from-csv FILE  measures nothing: summary and charts of a table of rows
   --out DIR        where rows.csv, summary.md and the charts go (default: out/chart)
@@ -21,13 +21,7 @@ for argument in "$@"; do
     esac
 done
 
-root=$(cd "$(dirname "$0")/../.." && pwd)
-"$root/deploy/install-packages.sh"
-(
-    cd "$root"
-    cmake --preset release >/dev/null
-    cmake --build --preset release --target macula-chart -- -j "$(nproc)" --quiet
-)
+. "$(dirname "$0")/build.sh"
 # Debian's NumPy and Matplotlib are seen from within; what Debian has not comes from PyPI, where that can be reached.
 python=$root/build/chart-env/bin/python
 [ -x "$python" ] || /usr/bin/python3 -m venv --system-site-packages "$root/build/chart-env"
@@ -37,4 +31,4 @@ for package in "${wanted[@]}"; do
         "$python" -m pip install --quiet --disable-pip-version-check --retries 1 --timeout 20 "$package" ||
         echo "tests/chart: $package cannot be installed; the run goes on without it" >&2
 done
-exec "$python" "$root/tests/chart/chart.py" --program "$root/build/release/tests/macula-chart" "$@"
+exec "$python" "$root/tests/chart/chart.py" --program "$program" "$@"

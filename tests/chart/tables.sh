@@ -19,13 +19,7 @@ case $table in
 esac
 shift
 
-root=$(cd "$(dirname "$0")/../.." && pwd)
-"$root/deploy/install-packages.sh"
-(
-    cd "$root"
-    cmake --preset release >/dev/null
-    cmake --build --preset release --target macula-chart -- -j "$(nproc)" --quiet
-)
+. "$(dirname "$0")/build.sh"
 python=$root/build/chart-env/bin/python
 [ -x "$python" ] || python=/usr/bin/python3
-exec "$python" -B "$root/tests/chart/$script" --program "$root/build/release/tests/macula-chart" "$@"
+exec "$python" -B "$root/tests/chart/$script" --program "$program" "$@"

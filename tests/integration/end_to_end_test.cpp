@@ -14,20 +14,13 @@
 
 #include "protocol/base/error.h"
 #include "tests/support/program.h"
+#include "tests/support/small_headset.h"
 
 namespace macula {
 namespace {
 
 using testing::Program;
 using testing::TemporaryFolder;
-
-/// 128x96 pixels per eye, 90 degrees wide.
-constexpr const char* kHeadset = R"({
-  "name": "small", "eye_width_px": 128, "eye_height_px": 96, "refresh_hz": 60,
-  "left": {"tangents": {"left": -1, "right": 1, "bottom": -0.75, "top": 0.75},
-           "head_from_eye": {"position_m": [-0.03, 0, 0]}},
-  "right": {"tangents": {"left": -1, "right": 1, "bottom": -0.75, "top": 0.75},
-            "head_from_eye": {"position_m": [0.03, 0, 0]}}})";
 
 /// Values of a summary file's lines, name=value.
 std::map<std::string, double> read_summary(const std::string& path) {
@@ -106,7 +99,7 @@ protected:
 
     TemporaryFolder folder_;
     std::string state_ = file("state");
-    std::string headset_ = folder_.write("small.json", kHeadset);
+    std::string headset_ = folder_.write("small.json", test::kSmallHeadset);
     std::string port_;
 };
 

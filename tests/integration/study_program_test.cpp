@@ -11,20 +11,13 @@
 
 #include "protocol/base/error.h"
 #include "tests/support/program.h"
+#include "tests/support/small_headset.h"
 
 namespace macula {
 namespace {
 
 using testing::Program;
 using testing::TemporaryFolder;
-
-/// 128x96 pixels per eye, 90 degrees wide.
-constexpr const char* kHeadset = R"({
-  "name": "small", "eye_width_px": 128, "eye_height_px": 96, "refresh_hz": 60,
-  "left": {"tangents": {"left": -1, "right": 1, "bottom": -0.75, "top": 0.75},
-           "head_from_eye": {"position_m": [-0.03, 0, 0]}},
-  "right": {"tangents": {"left": -1, "right": 1, "bottom": -0.75, "top": 0.75},
-            "head_from_eye": {"position_m": [0.03, 0, 0]}}})";
 
 struct Row {
     double time_s = 0.0;
@@ -38,7 +31,7 @@ class StudyProgram : public ::testing::Test {
 protected:
     static void SetUpTestSuite() {
         folder_ = std::make_unique<TemporaryFolder>();
-        headset_ = folder_->write("small.json", kHeadset);
+        headset_ = folder_->write("small.json", test::kSmallHeadset);
         server_ = std::make_unique<Program>(
             MACULA_SERVER, std::vector<std::string>{"--state", file("state"), "--listen", "127.0.0.1:0",
                                                     "--reconstruct-on", "cpu", "--mesh-cache", file("meshes")});

@@ -196,7 +196,7 @@ TEST(Lost, FramesAreAskedForAgain) {
     visit.watch(700ms);
     const std::string name = "machinery/link-lost-frames";
     check_sanity(name, visit);
-    check({name, "longest pause (ms)", ms(visit.longest_gap_ns), Side::at_most, 500.0,
+    check({name, "longest pause (ms)", ms(visit.longest_gap_ns), Side::at_most, 1500.0,
            "some frame times on an idle machine; less than the 2 s after which a session gives up reports"});
     const std::lock_guard lock(visit.record().mutex);
     check({name, "keyframes", static_cast<double>(visit.record().keyframes), Side::at_most, 3.0,
@@ -211,8 +211,8 @@ TEST(Lost, AReportIsNotMissed) {
     visit.watch(700ms);
     const std::string name = "machinery/link-lost-reports-two-of-three";
     check_sanity(name, visit);
-    check({name, "longest pause (ms)", ms(visit.longest_gap_ns), Side::at_most, 500.0,
-           "a report stands for all frames before it"});
+    check({name, "longest pause (ms)", ms(visit.longest_gap_ns), Side::at_most, 1500.0,
+           "a report stands for all frames before it, so the 2 s of one that gives up are never waited for"});
 }
 
 /// Everything in flight, or every report about it, is lost: nothing is left that would tell the server.
@@ -224,7 +224,7 @@ TEST(Lost, AllReportsDoNotStopTheSession) {
     visit.watch(2600ms);
     const std::string name = "machinery/link-lost-reports-all";
     check_sanity(name, visit, false);
-    check({name, "longest pause (ms)", ms(visit.longest_gap_ns), Side::at_most, 2500.0,
+    check({name, "longest pause (ms)", ms(visit.longest_gap_ns), Side::at_most, 4000.0,
            "Pacer::kReportLimit, 2 s, and a busy machine; without it the session stood for ever"});
     check({name, "longest pause (ms), at least", ms(visit.longest_gap_ns), Side::at_least, 1900.0,
            "pacing does not flood a slow client"});
@@ -241,7 +241,7 @@ TEST(Lost, AllFramesInFlightDoNotStopTheSession) {
     check_sanity(name, visit, false);
     check({name, "longest pause (ms)", ms(visit.longest_gap_ns), Side::at_most, 9000.0,
            "three frames each 2 s until one arrives: four times Pacer::kReportLimit, and a busy machine"});
-    check({name, "pause at the end (ms)", ms(now_ns() - visit.last_shown_ns), Side::at_most, 500.0,
+    check({name, "pause at the end (ms)", ms(now_ns() - visit.last_shown_ns), Side::at_most, 1500.0,
            "frames come again as before"});
 }
 
